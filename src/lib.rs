@@ -1,0 +1,23 @@
+//! Eye rays and spheres.
+#![cfg_attr(not(feature = "std"), no_std)]
+
+#[cfg(not(any(feature = "std", feature = "libm")))]
+compile_error!(
+    "eyeray takes square roots: enable its feature `std` (the default), or `libm` where there is no standard library"
+);
+
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
+mod hit;
+mod hittable;
+mod precision;
+mod ray;
+mod sphere;
+mod vector;
+
+pub use hit::Hit;
+pub use hittable::{Hittable, nearest};
+pub use ray::Ray;
+pub use sphere::Sphere;
+pub use vector::{Scalar, Vector};
