@@ -9,13 +9,24 @@ compile_error!(
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+mod algebraic;
+mod arithmetic;
+mod chord;
+mod double;
+mod first_try;
+mod float;
+mod geometric;
 mod hit;
 mod hittable;
 mod precision;
 mod ray;
+mod refine;
+mod single;
 mod sphere;
 mod vector;
 
+pub use algebraic::Algebraic;
+pub use geometric::Geometric;
 pub use hit::Hit;
 pub use hittable::{Hittable, nearest};
 pub use ray::Ray;

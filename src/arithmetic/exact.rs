@@ -1,0 +1,212 @@
+//! Exact arithmetic: sums of products of up to four `f64` as integers of fixed length, and numbers of any exponent.
+//!
+//! A float is an integer times a power of two, so a sum of products of floats is one too, and its sign can be told for
+//! sure. Every product of four finite `f64` fits in 264 digits of 32 bits (Kulisch's long accumulator), which is why there
+//! is neither overflow nor underflow here, and no allocation.
+
+use core::cmp::Ordering;
+use core::ops::{Add, Div, Neg};
+
+use super::pair::{Pair, two_sum};
+use super::scaling::{exponent, scale};
+
+/// Bits a digit.
+const DIGIT: i32 = 32;
+/// The exponent of the lowest digit: below 2⁻⁴²⁹⁶ = (2⁻¹⁰⁷⁴)⁴, and a whole number of digits.
+const LEAST: i32 = -135 * DIGIT;
+/// Up to 2⁴⁰⁹⁶ = (2¹⁰²⁴)⁴, and two more digits for the sum of many.
+const DIGITS: usize = 135 + 128 + 2;
+
+/// A sum of products, exact.
+pub(crate) struct Sum {
+    /// Least significant first, each with a sign of its own and room for 2³⁰ additions before a carry is due.
+    digits: [i64; DIGITS],
+}
+
+/// A finite `f64` as an integer below 2⁵³ and the exponent of its unit.
+fn integer_and_exponent(x: f64) -> (u64, i32) {
+    const FRACTION: u64 = (1 << 52) - 1;
+    let fraction = x.to_bits() & FRACTION;
+    match exponent(x) {
+        -1023 => (fraction, -1074),
+        e => (fraction | (FRACTION + 1), e - 52),
+    }
+}
+
+/// The four digits of an integer, least significant first.
+#[expect(clippy::cast_possible_truncation, reason = "each digit is the low half of what is left")]
+fn digits_of(integer: u128) -> [u64; 4] {
+    [0, 32, 64, 96].map(|place| u64::from((integer >> place) as u32))
+}
+
+/// The first 106 of the 128 bits of an integer with its highest bit set, as a number in 1..2.
+fn leading_pair(integer: u128) -> Pair {
+    const HALF: u128 = (1 << 53) - 1;
+    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
+    let part = |bits: u128| (bits & HALF) as f64;
+    two_sum(scale(part(integer >> 75), -52), scale(part(integer >> 22), -105))
+}
+
+impl Sum {
+    pub(crate) const fn zero() -> Self {
+        Self { digits: [0; DIGITS] }
+    }
+
+    /// Adds `times` the product of four finite numbers. |`times`| is 1 or 2.
+    pub(crate) fn add(&mut self, times: i64, factors: [f64; 4]) {
+        if factors.contains(&0.0) {
+            return;
+        }
+        let mut negative = times < 0;
+        let mut unit = 0;
+        let mut integers = [0_u128; 4];
+        for (integer, factor) in integers.iter_mut().zip(factors) {
+            let (mantissa, exponent) = integer_and_exponent(factor);
+            *integer = u128::from(mantissa);
+            unit += exponent;
+            negative ^= factor.is_sign_negative();
+        }
+        let place = (unit - LEAST).unsigned_abs();
+        let (digit, shift) = ((place / 32) as usize, place % 32);
+        let left = digits_of(integers[0] * integers[1]);
+        let right = digits_of(integers[2] * integers[3]);
+        // The product has at most 212 bits, eight digits with the last one unfinished, and the shift moves that to nine.
+        let mut product = [0_u64; 9];
+        for (i, a) in left.into_iter().enumerate() {
+            let mut carry = 0;
+            for (j, b) in right.into_iter().enumerate() {
+                let sum = a * b + product[i + j] + carry;
+                product[i + j] = sum & 0xffff_ffff;
+                carry = sum >> 32;
+            }
+            product[i + 4] = carry;
+        }
+        let mut spill = 0;
+        for (target, part) in self.digits[digit..].iter_mut().zip(product) {
+            let shifted = (part << shift) | spill;
+            spill = shifted >> 32;
+            let part = (shifted & 0xffff_ffff).cast_signed() * times.abs();
+            *target += if negative { -part } else { part };
+        }
+    }
+
+    /// Carries, so that every digit but the last is in 0..2³², and gives the carry out of the last.
+    fn carry(&mut self) -> i64 {
+        let mut carry = 0;
+        for digit in &mut self.digits {
+            let sum = *digit + carry;
+            *digit = sum & 0xffff_ffff;
+            carry = sum >> 32;
+        }
+        carry
+    }
+
+    /// The value, rounded to a pair with a relative error below 2⁻⁹⁶, and its exponent.
+    pub(crate) fn value(mut self) -> Wide {
+        let negative = self.carry() < 0;
+        if negative {
+            for digit in &mut self.digits {
+                *digit = -*digit;
+            }
+            // The digits hold the number modulo 2³²ⁿ, and so does their negative.
+            self.carry();
+        }
+        let Some(top) = self.digits.iter().rposition(|digit| *digit != 0) else {
+            return Wide::ZERO;
+        };
+        // Four digits: at least 97 bits.
+        let leading = (0..4).fold(0, |leading, below| {
+            let digit = top.checked_sub(below).map_or(0, |index| self.digits[index]);
+            (leading << DIGIT) | u128::from(digit.unsigned_abs())
+        });
+        let zeros = leading.leading_zeros().cast_signed();
+        let exponent = LEAST + DIGIT * (i32::try_from(top).unwrap_or(0) - 3) + 127 - zeros;
+        let value = leading_pair(leading << zeros);
+        Wide { value: if negative { -value } else { value }, exponent }
+    }
+
+    /// The sign: how the sum compares with 0.
+    pub(crate) fn sign(mut self) -> Ordering {
+        match self.carry() {
+            carry if carry < 0 => Ordering::Less,
+            carry if carry > 0 => Ordering::Greater,
+            _ if self.digits.iter().any(|digit| *digit != 0) => Ordering::Greater,
+            _ => Ordering::Equal,
+        }
+    }
+}
+
+/// A number of any exponent: `value` 2^`exponent`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wide {
+    value: Pair,
+    exponent: i32,
+}
+
+impl Wide {
+    const ZERO: Self = Self { value: Pair::ZERO, exponent: 0 };
+
+    pub(crate) fn is_negative(self) -> bool {
+        self.value.hi < 0.0
+    }
+
+    pub(crate) fn is_zero(self) -> bool {
+        self.value.hi == 0.0
+    }
+
+    /// The number times 2ᵉ, as a pair: with e its own exponent negated, in the middle of the range.
+    pub(crate) fn scaled(self, e: i32) -> Pair {
+        let e = self.exponent.saturating_add(e);
+        Pair { hi: scale(self.value.hi, e), lo: scale(self.value.lo, e) }
+    }
+
+    /// The number rounded to an `f64`, gradually below the normal ones.
+    pub(crate) fn to_f64(self) -> f64 {
+        scale(self.value.hi, self.exponent)
+    }
+
+    pub(crate) fn abs(self) -> Self {
+        Self { value: self.value.abs(), ..self }
+    }
+
+    /// The square root of a positive number or zero.
+    pub(crate) fn sqrt(self) -> Self {
+        if self.is_zero() {
+            return Self::ZERO;
+        }
+        let odd = self.exponent.rem_euclid(2);
+        Self { value: self.scaled(odd - self.exponent).sqrt(), exponent: (self.exponent - odd) / 2 }
+    }
+}
+
+impl Neg for Wide {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self { value: -self.value, ..self }
+    }
+}
+
+impl Add for Wide {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        if self.is_zero() {
+            return other;
+        }
+        if other.is_zero() {
+            return self;
+        }
+        let unit = self.exponent.max(other.exponent);
+        let value = self.scaled(-unit) + other.scaled(-unit);
+        Self { value, exponent: unit }
+    }
+}
+
+impl Div for Wide {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        Self { value: self.value / other.value, exponent: self.exponent - other.exponent }
+    }
+}

@@ -1,0 +1,7 @@
+//! The arithmetic that the two derivations are carried out in.
+
+pub(crate) mod exact;
+pub(crate) mod number;
+pub(crate) mod pair;
+pub(crate) mod rounding;
+pub(crate) mod scaling;

@@ -1,0 +1,61 @@
+//! What a derivation may do with a number, so that it is written once and carried out in `f64` or in pairs.
+
+use core::ops::{Add, Mul, Sub};
+
+use glam::DVec3;
+
+use super::pair::Pair;
+
+/// A number that a derivation can be carried out in.
+pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {}
+
+impl Number for f64 {}
+impl Number for Pair {}
+
+/// A vector of such numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct Triple<N> {
+    pub x: N,
+    pub y: N,
+    pub z: N,
+}
+
+impl<N: Number> Triple<N> {
+    #[inline(always)]
+    pub fn dot(self, other: Self) -> N {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    #[inline(always)]
+    pub fn cross(self, other: Self) -> Self {
+        Self {
+            x: self.y * other.z - self.z * other.y,
+            y: self.z * other.x - self.x * other.z,
+            z: self.x * other.y - self.y * other.x,
+        }
+    }
+
+    #[inline(always)]
+    pub fn map<M>(self, f: impl Fn(N) -> M) -> Triple<M> {
+        Triple { x: f(self.x), y: f(self.y), z: f(self.z) }
+    }
+
+    #[inline(always)]
+    pub fn zip<M, O: Copy>(self, other: Triple<O>, f: impl Fn(N, O) -> M) -> Triple<M> {
+        Triple { x: f(self.x, other.x), y: f(self.y, other.y), z: f(self.z, other.z) }
+    }
+}
+
+impl From<DVec3> for Triple<f64> {
+    #[inline(always)]
+    fn from(vector: DVec3) -> Self {
+        Self { x: vector.x, y: vector.y, z: vector.z }
+    }
+}
+
+impl From<Triple<f64>> for DVec3 {
+    #[inline(always)]
+    fn from(triple: Triple<f64>) -> Self {
+        Self::new(triple.x, triple.y, triple.z)
+    }
+}

@@ -1,0 +1,53 @@
+//! Rounding to `f32` once and for all: Ziv's test.
+//!
+//! Ziv, *Fast Evaluation of Elementary Mathematical Functions with Correctly Rounded Last Bit* (1991): if both ends of an
+//! interval that holds the exact value round to the same `f32`, that is the exact value correctly rounded.
+
+use core::cmp::Ordering;
+
+/// Twice the fraction of an `f64` that an `f32` has no room for: 29 bits.
+const EXCESS: u32 = 1 << 29;
+/// What lies halfway between two neighboring normal `f32`, within those bits.
+const HALFWAY: u32 = EXCESS / 2;
+
+/// 2¹²⁸.
+const POWER_PAST_MAX: f64 = 2.0 * (1_u128 << 127) as f64;
+
+/// Whether `t`, known to `MARGIN` units in its last place, is sure to round to the `f32` that the exact value rounds to.
+/// Says nothing of a `t` below the normal `f32`.
+#[inline(always)]
+pub(crate) fn rounds_safely<const MARGIN: u32>(t: f64) -> bool {
+    #[expect(clippy::cast_possible_truncation, reason = "only the lowest 29 bits are looked at")]
+    let excess = t.to_bits() as u32 % EXCESS;
+    excess.wrapping_sub(HALFWAY - MARGIN) > 2 * MARGIN
+}
+
+/// The exact value that `t` is known to be within `relative_error` of, rounded to `f32`, or `None` where that cannot be told.
+#[expect(clippy::cast_possible_truncation, reason = "rounding is what this does")]
+pub(crate) fn round_to_f32(t: f64, relative_error: f64) -> Option<f32> {
+    let error = t.abs() * relative_error;
+    let low = (t - error) as f32;
+    let high = (t + error) as f32;
+    (low == high).then_some(low)
+}
+
+/// The exact value that `t` is known to be nearly equal to, rounded to `f32`: `compare` says how the exact value compares with
+/// a number.
+#[expect(clippy::cast_possible_truncation, reason = "rounding is what this does")]
+pub(crate) fn round_to_f32_exactly(t: f64, compare: impl FnOnce(f64) -> Ordering) -> f32 {
+    let error = t.abs() * (2.0 * f64::EPSILON);
+    let low = (t - error) as f32;
+    let high = (t + error) as f32;
+    if low == high {
+        return low;
+    }
+    // Beyond the largest number stands, for rounding, the power of two that would come next.
+    let stand_in = |end: f32| if end.is_finite() { f64::from(end) } else { f64::from(end.signum()) * POWER_PAST_MAX };
+    let midpoint = (stand_in(low) + stand_in(high)) / 2.0;
+    let low_is_even = low.to_bits() % 2 == 0;
+    match compare(midpoint) {
+        Ordering::Less => low,
+        Ordering::Equal if low_is_even => low,
+        _ => high,
+    }
+}

@@ -1,0 +1,68 @@
+//! Ray and sphere, geometrically: find the closest approach to the center, and step half a chord to either side.
+
+use core::ops::Range;
+
+use crate::arithmetic::number::{Number, Triple};
+use crate::chord::{Chord, Derivation};
+use crate::{Hit, Hittable, Ray, Sphere, Vector};
+
+/// A sphere met by the geometric derivation.
+///
+/// The lecture has the unit sphere at the world's origin and a unit direction. The ray passes closest to the center at
+/// `t_m = -p·d`, at a distance `l_m` with `l_m² = p·p - (p·d)²`; if that is less than the radius, half the chord is
+/// `Δt = √(1 - l_m²)`, and the roots are `t_m ± Δt`. For any center c, radius r and direction d, with `o = c - p`,
+///
+/// ```text
+/// t_m  = o·d / d·d
+/// l_m² = o·o - (o·d)² / d·d = |o × d|² / d·d        (Lagrange's identity)
+/// Δt   = √((r² - l_m²) / d·d) = √(r² (d·d) - |o × d|²) / d·d
+/// ```
+///
+/// The form with the cross product does not subtract two large squares, and so loses little of `l_m` even where the sphere
+/// is far away. What is returned is the same, bit for bit in `f32`, as [`Sphere`] and [`Algebraic`](crate::Algebraic)
+/// return: the contract is stated at [`Sphere`].
+///
+/// Source: S. Marschner, CS4620 lecture 6, *Ray Tracing Basics*.
+///
+/// ```
+/// use eyeray::{Geometric, Hittable, Ray, Sphere};
+/// use glam::{Vec3, vec3};
+///
+/// let sphere = Geometric(Sphere::new(Vec3::ZERO, 1.0));
+/// let ray = Ray::new(vec3(0.0, 0.0, 5.0), vec3(0.0, 0.0, -2.0));
+/// assert_eq!(sphere.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(2.0));
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(transparent)]
+pub struct Geometric<V: Vector = glam::Vec3>(pub Sphere<V>);
+
+impl<V: Vector> Hittable<V> for Geometric<V> {
+    #[inline(always)]
+    fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>> {
+        V::intersect::<ClosestApproach>(&self.0, ray, range)
+    }
+}
+
+/// The geometric derivation.
+#[derive(Debug)]
+pub enum ClosestApproach {}
+
+impl Derivation for ClosestApproach {
+    #[inline(always)]
+    fn chord<N: Number>(o: Triple<N>, d: Triple<N>, radius_squared: N) -> Chord<N> {
+        // The closest approach, t_m = h / a.
+        let a = d.dot(d);
+        let h = d.dot(o);
+
+        // Its distance from the center: o × d is l_m long, times the direction's length.
+        let moment = o.cross(d);
+        let a_closest_squared = moment.dot(moment);
+
+        // Half the chord, by Pythagoras: (a Δt)² = a (r² - l_m²).
+        let discriminant = a * radius_squared - a_closest_squared;
+
+        let distance_squared = o.dot(o);
+        let power = distance_squared - radius_squared;
+        Chord { a, h, distance_squared, power, discriminant }
+    }
+}

@@ -1,0 +1,353 @@
+//! Where the first try is in doubt: the derivation again in pairs, and where pairs cannot tell either, exact arithmetic.
+//!
+//! With v = u² = 2⁻¹⁰⁶, m the larger of o·o and r², and o = c - p exactly a pair, by the errors stated in
+//! [`pair`](crate::arithmetic::pair):
+//!
+//! ```text
+//! a, h, o·o     products 5 v, two additions 4 v each         |error| ≤ 13 v a,  13 v |o| |d|,  13 v o·o
+//! power         13 v o·o, difference 4 v (o·o + r²)          |error| ≤ 21 v m
+//! discriminant  h²: 31 v a o·o;  a power: 39 v a m;  difference: 8 v a m
+//!               or r² a: 18 v a m;  |o × d|²: 39 v a o·o (as |error of o × d| ≤ 9 √2 v |o| |d|);  difference: 8 v a m
+//!                                                            |error| ≤ 78 v a m
+//! ```
+
+use core::cmp::Ordering;
+
+use glam::DVec3;
+
+use crate::arithmetic::exact::{Sum, Wide};
+use crate::arithmetic::number::Triple;
+use crate::arithmetic::pair::{Pair, two_difference};
+use crate::arithmetic::scaling::{exponent, scale};
+use crate::chord::{Chord, Derivation};
+use crate::float::sqrt;
+use crate::vector::Scalar;
+
+/// v = u² = 2⁻¹⁰⁶.
+const V: f64 = (f64::EPSILON / 2.0) * (f64::EPSILON / 2.0);
+/// Of h, in |o| |d|.
+const H_ERROR: f64 = 13.0 * V;
+/// Of the power, in m.
+const POWER_ERROR: f64 = 21.0 * V;
+/// Of the discriminant, in a m.
+const DISCRIMINANT_ERROR: f64 = 78.0 * V;
+/// Of a quotient or a sum besides what its terms bring with them, in itself: with the error of a, and to spare.
+const QUOTIENT_ERROR: f64 = 32.0 * V;
+
+/// A line and a sphere as the caller gave them.
+pub(crate) struct Line {
+    pub(crate) origin: DVec3,
+    pub(crate) direction: DVec3,
+    pub(crate) center: DVec3,
+    pub(crate) radius: f64,
+}
+
+/// Where a line crosses a sphere.
+#[derive(Clone, Copy)]
+pub(crate) struct Crossing<S> {
+    /// The root.
+    pub(crate) t: S,
+    /// The outward unit normal.
+    pub(crate) normal: DVec3,
+}
+
+/// A precision that roots are rounded to.
+pub(crate) trait Target: Scalar {
+    /// How far off the normal may be.
+    const POINT_ERROR: f64;
+
+    /// The value within `relative_error` of `t` as the contract has it, or `None` where that is not yet certain.
+    fn settle(t: f64, relative_error: f64) -> Option<Self>;
+
+    /// The same for a `t` that is as good as an `f64` can be, with `compare` to say how the exact value compares with a number.
+    fn settle_exactly(t: f64, compare: impl FnOnce(f64) -> Ordering) -> Self;
+}
+
+/// Which root.
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Near,
+    Far,
+}
+
+/// Both crossings along the whole line, ascending, if there are any.
+pub(crate) fn crossings<D: Derivation, S: Target>(line: &Line) -> Option<[Crossing<S>; 2]> {
+    let Line { origin, direction, center, radius } = *line;
+    let finite = origin.is_finite() && direction.is_finite() && center.is_finite() && radius.is_finite();
+    if !finite || direction == DVec3::ZERO || radius < 0.0 {
+        return None;
+    }
+    let exact = Exact::new(line);
+    match Scaled::new(&exact).map(|scaled| scaled.crossings::<D, S>()) {
+        Some(InPairs::Miss) => None,
+        Some(InPairs::Hit(crossings)) => Some(crossings),
+        Some(InPairs::Doubt) | None => exact.crossings::<S>(),
+    }
+}
+
+/// What pairs say.
+enum InPairs<S> {
+    Miss,
+    Hit([Crossing<S>; 2]),
+    Doubt,
+}
+
+/// The setting with lengths and directions each divided by a power of two that brings them near 1.
+struct Scaled {
+    o: Triple<Pair>,
+    d: Triple<f64>,
+    radius: f64,
+    /// The exponent of the power of two that a root is to be multiplied by.
+    root_exponent: i32,
+}
+
+impl Scaled {
+    /// `None` where the difference of the positions overflows, or all lengths are zero.
+    fn new(exact: &Exact) -> Option<Self> {
+        /// Fourth powers of what lies within this of 1 neither overflow nor lose anything in a pair.
+        const NEAR: i32 = 200;
+        let &Exact { o, d, radius } = exact;
+        let longest = o.x.hi.abs().max(o.y.hi.abs()).max(o.z.hi.abs()).max(radius);
+        if !(longest > 0.0 && longest < f64::INFINITY) {
+            return None;
+        }
+        let length_exponent = exponent(longest);
+        let direction_exponent = exponent(d.x.abs().max(d.y.abs()).max(d.z.abs()));
+        if length_exponent.abs() < NEAR && direction_exponent.abs() < NEAR {
+            return Some(Self { o, d, radius, root_exponent: 0 });
+        }
+        // What this rounds, far below the largest of its kind, is below every error bound.
+        let shorten = |x: f64| scale(x, -length_exponent);
+        Some(Self {
+            o: o.map(|pair| Pair { hi: shorten(pair.hi), lo: shorten(pair.lo) }),
+            d: d.map(|x| scale(x, -direction_exponent)),
+            radius: shorten(radius),
+            root_exponent: length_exponent - direction_exponent,
+        })
+    }
+
+    fn crossings<D: Derivation, S: Target>(&self) -> InPairs<S> {
+        let d = self.d.map(Pair::from);
+        let radius = Pair::from(self.radius);
+        let radius_squared = radius * radius;
+        let Chord { a, h, distance_squared, power, discriminant } = D::chord(self.o, d, radius_squared);
+
+        let larger = distance_squared.hi.max(radius_squared.hi);
+        let discriminant_error = DISCRIMINANT_ERROR * (a.hi * larger);
+        if discriminant.hi < -discriminant_error {
+            return InPairs::Miss;
+        }
+        let power_error = POWER_ERROR * larger;
+        if discriminant.hi <= discriminant_error || power.hi.abs() <= power_error {
+            return InPairs::Doubt;
+        }
+
+        // √D - √D' = (D - D') / (√D + √D'), at most the error of D over √D'.
+        let half_chord = discriminant.sqrt();
+        let sum = h.abs() + half_chord;
+        let sum_error = H_ERROR * sqrt(a.hi * distance_squared.hi) + discriminant_error / half_chord.hi;
+        if sum_error > S::POINT_ERROR * (self.radius * sqrt(a.hi)) {
+            return InPairs::Doubt;
+        }
+
+        // The root that does not cancel, and the other one from the product of the roots, power / a.
+        // The errors of quotients are doubled for their terms of second order.
+        let sum_relative_error = 2.0 * (sum_error / sum.hi) + QUOTIENT_ERROR;
+        let settle = |t: Pair, relative_error| S::settle(scale(t.hi, self.root_exponent), relative_error);
+        let (Some(x), Some(y)) = (
+            settle(with_sign_of(h, sum / a), sum_relative_error),
+            settle(with_sign_of(h, power / sum), sum_relative_error + 2.0 * (power_error / power.hi.abs())),
+        ) else {
+            return InPairs::Doubt;
+        };
+        let t = if y < x { [y, x] } else { [x, y] };
+        let [near, far] = normals(d, self.o.cross(d), a, half_chord, radius);
+        InPairs::Hit([Crossing { t: t[0], normal: near }, Crossing { t: t[1], normal: far }])
+    }
+}
+
+/// `magnitude` with the sign of `h`.
+fn with_sign_of(h: Pair, magnitude: Pair) -> Pair {
+    if h.hi < 0.0 { -magnitude } else { magnitude }
+}
+
+/// The outward normals where the line enters and leaves: by the geometric derivation, from the foot of the closest approach,
+/// at `-d × (o × d) / a` from the center, half a chord to either side.
+fn normals(d: Triple<Pair>, moment: Triple<Pair>, a: Pair, half_chord: Pair, radius: Pair) -> [DVec3; 2] {
+    let foot = d.cross(moment);
+    let scale = a * radius;
+    let normal = |half_chord: Pair| {
+        DVec3::from(d.zip(foot, |d, foot| (half_chord * d - foot) / scale).map(|coordinate| coordinate.hi))
+    };
+    [normal(-half_chord), normal(half_chord)]
+}
+
+/// The setting, exactly.
+struct Exact {
+    /// c - p: each coordinate the exact sum of two numbers.
+    o: Triple<Pair>,
+    d: Triple<f64>,
+    radius: f64,
+}
+
+impl Exact {
+    fn new(line: &Line) -> Self {
+        let difference = |c: f64, p: f64| {
+            let difference = two_difference(c, p);
+            // Where that overflows, an exact sum of two numbers still, if no longer a pair.
+            if difference.hi.is_finite() { difference } else { Pair { hi: c, lo: -p } }
+        };
+        Self {
+            o: Triple::from(line.center).zip(Triple::from(line.origin), difference),
+            d: Triple::from(line.direction),
+            radius: line.radius,
+        }
+    }
+
+    fn crossings<S: Target>(&self) -> Option<[Crossing<S>; 2]> {
+        let discriminant = self.discriminant();
+        if discriminant.is_negative() {
+            return None;
+        }
+        let half_chord = discriminant.sqrt();
+        let a = self.a();
+        let h = self.h();
+        let roots = if half_chord.is_zero() {
+            [h / a, h / a]
+        } else {
+            let power = self.power();
+            if h.is_negative() {
+                let sum = h + -half_chord;
+                [sum / a, power / sum]
+            } else {
+                let sum = h + half_chord;
+                [power / sum, sum / a]
+            }
+        };
+        let settle = |root: Wide, side| S::settle_exactly(root.to_f64(), |m| self.compare_root(side, m));
+        let [near, far] = self.normals(half_chord);
+        Some([
+            Crossing { t: settle(roots[0], Side::Near), normal: near },
+            Crossing { t: settle(roots[1], Side::Far), normal: far },
+        ])
+    }
+
+    /// The six terms of o with their places: the coordinates are the sums of each two.
+    fn o_terms(&self) -> [[f64; 2]; 3] {
+        [self.o.x, self.o.y, self.o.z].map(|pair| [pair.hi, pair.lo])
+    }
+
+    fn d_terms(&self) -> [f64; 3] {
+        [self.d.x, self.d.y, self.d.z]
+    }
+
+    /// d·d.
+    fn a(&self) -> Wide {
+        let mut sum = Sum::zero();
+        for d in self.d_terms() {
+            sum.add(1, [d, d, 1.0, 1.0]);
+        }
+        sum.value()
+    }
+
+    /// d·o.
+    fn h(&self) -> Wide {
+        let mut sum = Sum::zero();
+        for (o, d) in self.o_terms().into_iter().zip(self.d_terms()) {
+            for o in o {
+                sum.add(1, [o, d, 1.0, 1.0]);
+            }
+        }
+        sum.value()
+    }
+
+    /// o·o - r².
+    fn power(&self) -> Wide {
+        let mut sum = Sum::zero();
+        for [hi, lo] in self.o_terms() {
+            sum.add(1, [hi, hi, 1.0, 1.0]);
+            sum.add(2, [hi, lo, 1.0, 1.0]);
+            sum.add(1, [lo, lo, 1.0, 1.0]);
+        }
+        sum.add(-1, [self.radius, self.radius, 1.0, 1.0]);
+        sum.value()
+    }
+
+    /// o × d: each coordinate the sum of four products.
+    fn moment_terms(&self) -> [[[f64; 2]; 4]; 3] {
+        let (o, d) = (self.o_terms(), self.d_terms());
+        [(1, 2), (2, 0), (0, 1)].map(|(i, j)| {
+            [[o[i][0], d[j]], [o[i][1], d[j]], [-o[j][0], d[i]], [-o[j][1], d[i]]]
+        })
+    }
+
+    /// r² (d·d) - |o × d|².
+    fn discriminant(&self) -> Wide {
+        let mut sum = Sum::zero();
+        for d in self.d_terms() {
+            sum.add(1, [self.radius, self.radius, d, d]);
+        }
+        for coordinate in self.moment_terms() {
+            for (i, [o, d]) in coordinate.into_iter().enumerate() {
+                sum.add(-1, [o, d, o, d]);
+                for [other_o, other_d] in coordinate.into_iter().skip(i + 1) {
+                    sum.add(-2, [o, d, other_o, other_d]);
+                }
+            }
+        }
+        sum.value()
+    }
+
+    /// How the near or the far root compares with `m`: by the sign of the quadratic at m, and the side of the closest
+    /// approach that m lies on.
+    fn compare_root(&self, side: Side, m: f64) -> Ordering {
+        // |m d - o|² - r².
+        let mut quadratic = Sum::zero();
+        quadratic.add(-1, [self.radius, self.radius, 1.0, 1.0]);
+        // h - a m.
+        let mut ahead = Sum::zero();
+        for ([hi, lo], d) in self.o_terms().into_iter().zip(self.d_terms()) {
+            quadratic.add(1, [m, d, m, d]);
+            for o in [hi, lo] {
+                quadratic.add(-2, [m, d, o, 1.0]);
+                ahead.add(1, [o, d, 1.0, 1.0]);
+            }
+            quadratic.add(1, [hi, hi, 1.0, 1.0]);
+            quadratic.add(2, [hi, lo, 1.0, 1.0]);
+            quadratic.add(1, [lo, lo, 1.0, 1.0]);
+            ahead.add(-1, [d, d, m, 1.0]);
+        }
+        match (side, quadratic.sign(), ahead.sign()) {
+            // Outside the chord, m lies before both roots or behind both.
+            (_, Ordering::Greater, ahead) => ahead,
+            // At a root: at the near one where the closest approach is still ahead, at the far one where it is past.
+            (Side::Near, Ordering::Equal, Ordering::Greater | Ordering::Equal)
+            | (Side::Far, Ordering::Equal, Ordering::Less | Ordering::Equal) => Ordering::Equal,
+            // Within the chord.
+            (Side::Near, ..) => Ordering::Less,
+            (Side::Far, ..) => Ordering::Greater,
+        }
+    }
+
+    /// The outward unit normals at both crossings.
+    fn normals(&self, half_chord: Wide) -> [DVec3; 2] {
+        let direction_exponent = exponent(self.d.x.abs().max(self.d.y.abs()).max(self.d.z.abs()));
+        let d = self.d.map(|d| scale(d, -direction_exponent));
+        if self.radius == 0.0 {
+            // There is none: back along the ray.
+            return [-DVec3::from(d).normalize(); 2];
+        }
+        // In units of the radius and of the direction's length, which bound half the chord and the moment.
+        let radius_exponent = exponent(self.radius);
+        let unit = -(radius_exponent + direction_exponent);
+        let [x, y, z] = self.moment_terms().map(|coordinate| {
+            let mut sum = Sum::zero();
+            for [o, d] in coordinate {
+                sum.add(1, [o, d, 1.0, 1.0]);
+            }
+            sum.value().scaled(unit)
+        });
+        let d = d.map(Pair::from);
+        normals(d, Triple { x, y, z }, d.dot(d), half_chord.scaled(unit), Pair::from(scale(self.radius, -radius_exponent)))
+    }
+}

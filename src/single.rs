@@ -1,0 +1,157 @@
+//! `f32`: computed in `f64`, where the inputs and most of their products are exact, and rounded once.
+
+use core::ops::Range;
+
+use glam::{DVec3, Vec3};
+
+use crate::arithmetic::number::Triple;
+use crate::arithmetic::rounding::{self, rounds_safely};
+use crate::chord::{Chord, Derivation};
+use crate::first_try::{BothRoots, FirstTry, RELATIVE_ERROR, both_roots, nearest_ahead};
+use crate::precision::Precision;
+use crate::refine::{self, Crossing, Line, Target};
+use crate::{Hit, Ray, Sphere};
+
+/// The first try's error in units of the last of 53 places: its relative error times 2⁵³.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "294,912")]
+const MARGIN: u32 = (RELATIVE_ERROR * (1_u64 << 53) as f64) as u32;
+
+/// A line and a sphere in `f64`.
+struct Setting {
+    center: DVec3,
+    /// From the ray's origin to the center, rounded.
+    o: DVec3,
+    direction: DVec3,
+    radius: f64,
+    /// Negative where the radius is.
+    radius_squared: f64,
+}
+
+impl Setting {
+    #[inline(always)]
+    fn new(sphere: &Sphere<Vec3>, ray: &Ray<Vec3>) -> Self {
+        let center = sphere.center.as_dvec3();
+        let radius = f64::from(sphere.radius);
+        Self {
+            center,
+            o: center - ray.origin.as_dvec3(),
+            direction: ray.direction.as_dvec3(),
+            radius,
+            radius_squared: radius * radius.abs(),
+        }
+    }
+
+    #[inline(always)]
+    fn chord<D: Derivation>(&self) -> Chord<f64> {
+        D::chord(Triple::from(self.o), Triple::from(self.direction), self.radius_squared)
+    }
+}
+
+impl Precision for Vec3 {
+    // Inlined always: so that what a caller does not use of the hit is not computed.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
+    fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
+        let setting = Setting::new(sphere, ray);
+        match nearest_ahead(&setting.chord::<D>(), setting.radius_squared) {
+            FirstTry::Miss => return None,
+            FirstTry::Root { t, .. } if rounds_safely::<MARGIN>(t) => {
+                let rounded = t as f32;
+                // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
+                if rounded >= range.start && rounded >= f32::MIN_POSITIVE {
+                    return (rounded < range.end)
+                        .then(|| hit(sphere, rounded, setting.direction * t - setting.o, setting.radius));
+                }
+            }
+            _ => {}
+        }
+        intersect_refined::<D>(sphere, ray, range)
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "the roots are rounded once, here")]
+    fn roots<D: Derivation>(sphere: &Sphere, ray: &Ray) -> Option<[f32; 2]> {
+        let setting = Setting::new(sphere, ray);
+        match both_roots(&setting.chord::<D>(), setting.radius_squared) {
+            BothRoots::Miss => return None,
+            BothRoots::Roots { t: [near, far], .. }
+                if rounds_safely::<MARGIN>(near) && rounds_safely::<MARGIN>(far) =>
+            {
+                let rounded = [near as f32, far as f32];
+                if rounded[0].is_normal() && rounded[1].is_normal() {
+                    return Some(rounded);
+                }
+            }
+            _ => {}
+        }
+        roots_refined::<D>(sphere, ray)
+    }
+}
+
+/// The hit at `t`, with `offset` from the center to it.
+#[inline(always)]
+fn hit(sphere: &Sphere, t: f32, offset: DVec3, radius: f64) -> Hit {
+    Hit {
+        t,
+        // Rounded twice, to half a unit in the last place each time.
+        point: sphere.center + offset.as_vec3(),
+        normal: (offset * radius.recip()).as_vec3(),
+        clearance: clearance(sphere.center, sphere.radius),
+    }
+}
+
+/// How far along the normal a spawned ray starts.
+///
+/// With m = max |center coordinate| + radius, an ulp of m is at most 2⁻²³ m. The point is off by at most 1.5 ulp a coordinate
+/// and the spawned origin is rounded by half an ulp a coordinate, together at most 2 √3 < 3.47 ulp of distance. So 4 ulp, and
+/// the smallest of numbers where an ulp is no smaller than that.
+#[inline(always)]
+fn clearance(center: Vec3, radius: f32) -> f32 {
+    const FOUR_ULPS: f32 = 4.0 * f32::EPSILON;
+    (center.abs().max_element() * FOUR_ULPS + radius * FOUR_ULPS).max(4.0 * f32::from_bits(1))
+}
+
+fn line(sphere: &Sphere, ray: &Ray) -> Line {
+    Line {
+        origin: ray.origin.as_dvec3(),
+        direction: ray.direction.as_dvec3(),
+        center: sphere.center.as_dvec3(),
+        radius: f64::from(sphere.radius),
+    }
+}
+
+/// Both roots where the first try left a doubt.
+#[cold]
+#[inline(never)]
+fn roots_refined<D: Derivation>(sphere: &Sphere, ray: &Ray) -> Option<[f32; 2]> {
+    refine::crossings::<D, f32>(&line(sphere, ray)).map(|crossings| crossings.map(|crossing| crossing.t))
+}
+
+/// The nearest hit where the first try left a doubt.
+#[cold]
+#[inline(never)]
+fn intersect_refined<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
+    let crossings = refine::crossings::<D, f32>(&line(sphere, ray))?;
+    let Crossing { t, normal } = crossings
+        .into_iter()
+        .find(|crossing| crossing.t > 0.0 && crossing.t < f32::INFINITY && range.contains(&crossing.t))?;
+    let offset = normal * f64::from(sphere.radius);
+    Some(Hit {
+        t,
+        point: sphere.center + offset.as_vec3(),
+        normal: normal.as_vec3(),
+        clearance: clearance(sphere.center, sphere.radius),
+    })
+}
+
+impl Target for f32 {
+    const POINT_ERROR: f64 = f32::EPSILON as f64 / 64.0;
+
+    fn settle(t: f64, relative_error: f64) -> Option<f32> {
+        rounding::round_to_f32(t, relative_error)
+    }
+
+    fn settle_exactly(t: f64, compare: impl FnOnce(f64) -> core::cmp::Ordering) -> f32 {
+        rounding::round_to_f32_exactly(t, compare)
+    }
+}
