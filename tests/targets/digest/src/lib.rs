@@ -114,7 +114,7 @@ impl<T: Bits, const N: usize> Bits for [T; N] {
 impl<T: Bits> Bits for Option<T> {
     fn digest(&self, digest: &mut FnvHasher) {
         digest.write_u8(self.is_some().into());
-        for value in self {
+        if let Some(value) = self {
             value.digest(digest);
         }
     }
