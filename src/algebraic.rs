@@ -42,7 +42,7 @@ impl<V: Vector> Hittable<V> for Algebraic<V> {
 
 /// The algebraic derivation.
 #[derive(Debug)]
-pub enum Quadratic {}
+pub(crate) enum Quadratic {}
 
 impl Derivation for Quadratic {
     #[inline(always)]

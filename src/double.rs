@@ -13,9 +13,15 @@ use crate::precision::Precision;
 use crate::refine::{self, Crossing, Line, Target};
 use crate::{Hit, Ray, Sphere};
 
-/// The squares a and o·o or r² must lie between the inverse of this and this, so that no product of four of their roots
-/// overflows and no error of a product underflows to where it matters.
-const SAFE: f64 = (1_u128 << 120) as f64 * (1_u128 << 120) as f64 * (1_u128 << 120) as f64 * (1_u128 << 120) as f64;
+/// Whether a square, a or the larger of o·o and r², is between 2⁻⁴⁸⁰ and 2⁴⁸⁰: then no product of two of them overflows, and
+/// what underflows on the way is far below the error bounds.
+#[inline(always)]
+fn is_safe(square: f64) -> bool {
+    const LEAST: u64 = (1023 - 480) << 52;
+    const SPAN: u64 = 960 << 52;
+    // Above the span are all negative numbers, infinities and NaN.
+    square.to_bits().wrapping_sub(LEAST) < SPAN
+}
 
 /// A line and a sphere.
 struct Setting {
@@ -48,8 +54,7 @@ impl Setting {
             self.radius_squared,
         );
         let larger = if chord.power > 0.0 { chord.distance_squared } else { self.radius_squared };
-        let safe = chord.a.min(larger) > SAFE.recip() && chord.a.max(larger) < SAFE;
-        safe.then_some(chord)
+        (is_safe(chord.a) && is_safe(larger)).then_some(chord)
     }
 
     /// The root near `t`, and where it is from the center.
@@ -61,7 +66,13 @@ impl Setting {
     /// taken exactly; what is rounded is below 32 u² (o·o + r²), and so moves t by less than 2⁻⁷⁵ of itself. The final sum
     /// is rounded, by half an ulp.
     #[inline(always)]
-    fn polish(&self, t: f64, half_chord: f64) -> (f64, DVec3) {
+    fn polish(&self, numerator: f64, denominator: f64, half_chord: f64) -> (f64, DVec3) {
+        // One division for two quotients, the root to start from and the inverse of the slope.
+        let slope = 2.0 * half_chord;
+        let inverse = (slope * denominator).recip();
+        let t = numerator * (slope * inverse);
+        let inverse_slope = denominator * inverse;
+
         // x = t d - o, each coordinate in two parts.
         let along = |d: f64, c: f64, p: f64| {
             let o = two_difference(c, p);
@@ -73,29 +84,34 @@ impl Setting {
         let (y, y_low) = along(self.direction.y, self.center.y, self.origin.y);
         let (z, z_low) = along(self.direction.z, self.center.z, self.origin.z);
 
-        // x·x - r². The last difference of the leading terms is exact because they nearly cancel (Sterbenz).
+        // x·x - r².
         let [xx, yy, zz] = [x, y, z].map(|coordinate| two_product(coordinate, coordinate));
         let rr = two_product(self.radius, self.radius);
         let xy = two_sum(xx.hi, yy.hi);
-        let xyz = two_sum(xy.hi, zz.hi);
-        let low = (xx.lo + yy.lo) + (zz.lo - rr.lo) + (xy.lo + xyz.lo);
-        let residual = (xyz.hi - rr.hi) + (low + 2.0 * (x * x_low + y * y_low + z * z_low));
+        let rz = two_difference(rr.hi, zz.hi);
+        let low = ((xx.lo + yy.lo) + (zz.lo - rr.lo)) + (xy.lo - rz.lo);
+        let residual = (xy.hi - rz.hi) + (low + 2.0 * (x * x_low + y * y_low + z * z_low));
 
-        let correction = residual / (2.0 * half_chord);
-        let offset = DVec3::new(x, y, z) + (DVec3::new(x_low, y_low, z_low) + self.direction * correction);
+        let correction = residual * inverse_slope;
+        let offset =
+            DVec3::new(x, y, z) + (DVec3::new(x_low, y_low, z_low) + self.direction * correction);
         (t + correction, offset)
     }
 }
 
 impl Precision for DVec3 {
     #[inline(always)]
-    fn intersect<D: Derivation>(sphere: &Sphere<Self>, ray: &Ray<Self>, range: Range<f64>) -> Option<Hit<Self>> {
+    fn intersect<D: Derivation>(
+        sphere: &Sphere<Self>,
+        ray: &Ray<Self>,
+        range: Range<f64>,
+    ) -> Option<Hit<Self>> {
         let setting = Setting::new(sphere, ray);
         if let Some(chord) = setting.chord::<D>() {
             match nearest_ahead(&chord, setting.radius_squared) {
                 FirstTry::Miss => return None,
-                FirstTry::Root { t, half_chord } => {
-                    let (t, offset) = setting.polish(t, half_chord);
+                FirstTry::Root { numerator, denominator, half_chord } => {
+                    let (t, offset) = setting.polish(numerator, denominator, half_chord);
                     // Below the range, the other root may be in it.
                     if t >= range.start && t > 0.0 {
                         return (t < range.end).then(|| Hit {
@@ -119,7 +135,10 @@ impl Precision for DVec3 {
             match both_roots(&chord, setting.radius_squared) {
                 BothRoots::Miss => return None,
                 BothRoots::Roots { t: [near, far], half_chord } => {
-                    return Some([setting.polish(near, half_chord).0, setting.polish(far, -half_chord).0]);
+                    return Some([
+                        setting.polish(near, 1.0, half_chord).0,
+                        setting.polish(far, 1.0, -half_chord).0,
+                    ]);
                 }
                 BothRoots::Doubt => {}
             }
@@ -140,14 +159,20 @@ fn clearance(sphere: &Sphere<DVec3>) -> f64 {
 }
 
 fn line(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> Line {
-    Line { origin: ray.origin, direction: ray.direction, center: sphere.center, radius: sphere.radius }
+    Line {
+        origin: ray.origin,
+        direction: ray.direction,
+        center: sphere.center,
+        radius: sphere.radius,
+    }
 }
 
 /// Both roots where the first try left a doubt.
 #[cold]
 #[inline(never)]
 fn roots_refined<D: Derivation>(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> Option<[f64; 2]> {
-    refine::crossings::<D, f64>(&line(sphere, ray)).map(|crossings| crossings.map(|crossing| crossing.t))
+    refine::crossings::<D, f64>(&line(sphere, ray))
+        .map(|crossings| crossings.map(|crossing| crossing.t))
 }
 
 /// The nearest hit where the first try left a doubt.
@@ -159,10 +184,15 @@ fn intersect_refined<D: Derivation>(
     range: Range<f64>,
 ) -> Option<Hit<DVec3>> {
     let crossings = refine::crossings::<D, f64>(&line(sphere, ray))?;
-    let Crossing { t, normal } = crossings
-        .into_iter()
-        .find(|crossing| crossing.t > 0.0 && crossing.t < f64::INFINITY && range.contains(&crossing.t))?;
-    Some(Hit { t, point: sphere.center + normal * sphere.radius, normal, clearance: clearance(sphere) })
+    let Crossing { t, normal } = crossings.into_iter().find(|crossing| {
+        crossing.t > 0.0 && crossing.t < f64::INFINITY && range.contains(&crossing.t)
+    })?;
+    Some(Hit {
+        t,
+        point: sphere.center + normal * sphere.radius,
+        normal,
+        clearance: clearance(sphere),
+    })
 }
 
 impl Target for f64 {

@@ -33,11 +33,11 @@ const SIGN_CERTAIN: f64 = 8.0 * (f64::EPSILON / 2.0);
 pub(crate) enum FirstTry {
     /// There is none.
     Miss,
-    /// This one, or very nearly.
+    /// This one, or very nearly: `numerator / denominator`, with a relative error of at most [`RELATIVE_ERROR`].
     Root {
-        /// Relative error at most [`RELATIVE_ERROR`].
-        t: f64,
-        /// √discriminant where the ray enters at `t`, -√discriminant where it leaves.
+        numerator: f64,
+        denominator: f64,
+        /// √discriminant where the ray enters there, -√discriminant where it leaves.
         half_chord: f64,
     },
     /// Look closer.
@@ -61,19 +61,28 @@ pub(crate) fn nearest_ahead(chord: &Chord<f64>, radius_squared: f64) -> FirstTry
             }
             // The nearer root, (h - √discriminant) / a, without its cancellation: the product of the roots is power / a.
             let half_chord = sqrt(discriminant);
-            return FirstTry::Root { t: power / (h + half_chord), half_chord };
+            return FirstTry::Root { numerator: power, denominator: h + half_chord, half_chord };
         }
         if discriminant < -clear {
             return FirstTry::Miss;
         }
-    } else if power < -SIGN_CERTAIN * radius_squared && discriminant > CLEAR * (a * radius_squared) {
+    } else if power < -SIGN_CERTAIN * radius_squared && discriminant > CLEAR * (a * radius_squared)
+    {
         // Inside. One root lies ahead, (h + √discriminant) / a, and it cancels where the center is behind.
         let half_chord = sqrt(discriminant);
         if h > 0.0 {
-            return FirstTry::Root { t: (h + half_chord) / a, half_chord: -half_chord };
+            return FirstTry::Root {
+                numerator: h + half_chord,
+                denominator: a,
+                half_chord: -half_chord,
+            };
         }
         if power < -CLEAR * radius_squared {
-            return FirstTry::Root { t: power / (h - half_chord), half_chord: -half_chord };
+            return FirstTry::Root {
+                numerator: power,
+                denominator: h - half_chord,
+                half_chord: -half_chord,
+            };
         }
     }
     FirstTry::Doubt

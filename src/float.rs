@@ -1,10 +1,19 @@
-//! The two functions of `f64` that `core` lacks.
+//! The functions of floating point that `core` lacks, from the standard library or from the libm crate.
 
-/// The square root, correctly rounded.
+/// The square root, correctly rounded: the same bits whichever library gives it.
 #[inline(always)]
-pub(crate) fn sqrt(x: f64) -> f64 {
+pub(crate) fn sqrt(value: f64) -> f64 {
     #[cfg(feature = "std")]
-    return x.sqrt();
+    return value.sqrt();
     #[cfg(not(feature = "std"))]
-    return libm::sqrt(x);
+    return libm::sqrt(value);
+}
+
+/// The tangent. Platforms differ in its last bit, the libm crate does not: where that is enabled, it is the one used.
+#[inline(always)]
+pub(crate) fn tan(value: f64) -> f64 {
+    #[cfg(feature = "libm")]
+    return libm::tan(value);
+    #[cfg(not(feature = "libm"))]
+    return value.tan();
 }

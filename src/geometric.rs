@@ -45,7 +45,7 @@ impl<V: Vector> Hittable<V> for Geometric<V> {
 
 /// The geometric derivation.
 #[derive(Debug)]
-pub enum ClosestApproach {}
+pub(crate) enum ClosestApproach {}
 
 impl Derivation for ClosestApproach {
     #[inline(always)]

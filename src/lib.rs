@@ -11,6 +11,9 @@ extern crate alloc;
 
 mod algebraic;
 mod arithmetic;
+mod basis;
+mod camera;
+mod camera_error;
 mod chord;
 mod double;
 mod first_try;
@@ -24,11 +27,15 @@ mod refine;
 mod single;
 mod sphere;
 mod vector;
+mod view_rect;
 
 pub use algebraic::Algebraic;
+pub use camera::{Camera, Rays};
+pub use camera_error::CameraError;
 pub use geometric::Geometric;
 pub use hit::Hit;
 pub use hittable::{Hittable, nearest};
 pub use ray::Ray;
 pub use sphere::Sphere;
 pub use vector::{Scalar, Vector};
+pub use view_rect::ViewRect;

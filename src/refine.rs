@@ -73,7 +73,8 @@ enum Side {
 /// Both crossings along the whole line, ascending, if there are any.
 pub(crate) fn crossings<D: Derivation, S: Target>(line: &Line) -> Option<[Crossing<S>; 2]> {
     let Line { origin, direction, center, radius } = *line;
-    let finite = origin.is_finite() && direction.is_finite() && center.is_finite() && radius.is_finite();
+    let finite =
+        origin.is_finite() && direction.is_finite() && center.is_finite() && radius.is_finite();
     if !finite || direction == DVec3::ZERO || radius < 0.0 {
         return None;
     }
@@ -130,7 +131,8 @@ impl Scaled {
         let d = self.d.map(Pair::from);
         let radius = Pair::from(self.radius);
         let radius_squared = radius * radius;
-        let Chord { a, h, distance_squared, power, discriminant } = D::chord(self.o, d, radius_squared);
+        let Chord { a, h, distance_squared, power, discriminant } =
+            D::chord(self.o, d, radius_squared);
 
         let larger = distance_squared.hi.max(radius_squared.hi);
         let discriminant_error = DISCRIMINANT_ERROR * (a.hi * larger);
@@ -145,7 +147,8 @@ impl Scaled {
         // √D - √D' = (D - D') / (√D + √D'), at most the error of D over √D'.
         let half_chord = discriminant.sqrt();
         let sum = h.abs() + half_chord;
-        let sum_error = H_ERROR * sqrt(a.hi * distance_squared.hi) + discriminant_error / half_chord.hi;
+        let sum_error =
+            H_ERROR * sqrt(a.hi * distance_squared.hi) + discriminant_error / half_chord.hi;
         if sum_error > S::POINT_ERROR * (self.radius * sqrt(a.hi)) {
             return InPairs::Doubt;
         }
@@ -153,10 +156,14 @@ impl Scaled {
         // The root that does not cancel, and the other one from the product of the roots, power / a.
         // The errors of quotients are doubled for their terms of second order.
         let sum_relative_error = 2.0 * (sum_error / sum.hi) + QUOTIENT_ERROR;
-        let settle = |t: Pair, relative_error| S::settle(scale(t.hi, self.root_exponent), relative_error);
+        let settle =
+            |t: Pair, relative_error| S::settle(scale(t.hi, self.root_exponent), relative_error);
         let (Some(x), Some(y)) = (
             settle(with_sign_of(h, sum / a), sum_relative_error),
-            settle(with_sign_of(h, power / sum), sum_relative_error + 2.0 * (power_error / power.hi.abs())),
+            settle(
+                with_sign_of(h, power / sum),
+                sum_relative_error + 2.0 * (power_error / power.hi.abs()),
+            ),
         ) else {
             return InPairs::Doubt;
         };
@@ -173,11 +180,19 @@ fn with_sign_of(h: Pair, magnitude: Pair) -> Pair {
 
 /// The outward normals where the line enters and leaves: by the geometric derivation, from the foot of the closest approach,
 /// at `-d × (o × d) / a` from the center, half a chord to either side.
-fn normals(d: Triple<Pair>, moment: Triple<Pair>, a: Pair, half_chord: Pair, radius: Pair) -> [DVec3; 2] {
+fn normals(
+    d: Triple<Pair>,
+    moment: Triple<Pair>,
+    a: Pair,
+    half_chord: Pair,
+    radius: Pair,
+) -> [DVec3; 2] {
     let foot = d.cross(moment);
     let scale = a * radius;
     let normal = |half_chord: Pair| {
-        DVec3::from(d.zip(foot, |d, foot| (half_chord * d - foot) / scale).map(|coordinate| coordinate.hi))
+        DVec3::from(
+            d.zip(foot, |d, foot| (half_chord * d - foot) / scale).map(|coordinate| coordinate.hi),
+        )
     };
     [normal(-half_chord), normal(half_chord)]
 }
@@ -224,7 +239,8 @@ impl Exact {
                 [power / sum, sum / a]
             }
         };
-        let settle = |root: Wide, side| S::settle_exactly(root.to_f64(), |m| self.compare_root(side, m));
+        let settle =
+            |root: Wide, side| S::settle_exactly(root.to_f64(), |m| self.compare_root(side, m));
         let [near, far] = self.normals(half_chord);
         Some([
             Crossing { t: settle(roots[0], Side::Near), normal: near },
@@ -276,9 +292,8 @@ impl Exact {
     /// o × d: each coordinate the sum of four products.
     fn moment_terms(&self) -> [[[f64; 2]; 4]; 3] {
         let (o, d) = (self.o_terms(), self.d_terms());
-        [(1, 2), (2, 0), (0, 1)].map(|(i, j)| {
-            [[o[i][0], d[j]], [o[i][1], d[j]], [-o[j][0], d[i]], [-o[j][1], d[i]]]
-        })
+        [(1, 2), (2, 0), (0, 1)]
+            .map(|(i, j)| [[o[i][0], d[j]], [o[i][1], d[j]], [-o[j][0], d[i]], [-o[j][1], d[i]]])
     }
 
     /// r² (d·d) - |o × d|².
@@ -348,6 +363,12 @@ impl Exact {
             sum.value().scaled(unit)
         });
         let d = d.map(Pair::from);
-        normals(d, Triple { x, y, z }, d.dot(d), half_chord.scaled(unit), Pair::from(scale(self.radius, -radius_exponent)))
+        normals(
+            d,
+            Triple { x, y, z },
+            d.dot(d),
+            half_chord.scaled(unit),
+            Pair::from(scale(self.radius, -radius_exponent)),
+        )
     }
 }

@@ -18,11 +18,9 @@ const MARGIN: u32 = (RELATIVE_ERROR * (1_u64 << 53) as f64) as u32;
 
 /// A line and a sphere in `f64`.
 struct Setting {
-    center: DVec3,
     /// From the ray's origin to the center, rounded.
     o: DVec3,
     direction: DVec3,
-    radius: f64,
     /// Negative where the radius is.
     radius_squared: f64,
 }
@@ -30,13 +28,10 @@ struct Setting {
 impl Setting {
     #[inline(always)]
     fn new(sphere: &Sphere<Vec3>, ray: &Ray<Vec3>) -> Self {
-        let center = sphere.center.as_dvec3();
         let radius = f64::from(sphere.radius);
         Self {
-            center,
-            o: center - ray.origin.as_dvec3(),
+            o: sphere.center.as_dvec3() - ray.origin.as_dvec3(),
             direction: ray.direction.as_dvec3(),
-            radius,
             radius_squared: radius * radius.abs(),
         }
     }
@@ -55,15 +50,19 @@ impl Precision for Vec3 {
         let setting = Setting::new(sphere, ray);
         match nearest_ahead(&setting.chord::<D>(), setting.radius_squared) {
             FirstTry::Miss => return None,
-            FirstTry::Root { t, .. } if rounds_safely::<MARGIN>(t) => {
+            FirstTry::Root { numerator, denominator, .. } => {
+                let t = numerator / denominator;
                 let rounded = t as f32;
                 // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
-                if rounded >= range.start && rounded >= f32::MIN_POSITIVE {
+                if rounds_safely::<MARGIN>(t)
+                    && rounded >= range.start
+                    && rounded >= f32::MIN_POSITIVE
+                {
                     return (rounded < range.end)
-                        .then(|| hit(sphere, rounded, setting.direction * t - setting.o, setting.radius));
+                        .then(|| hit(sphere, rounded, setting.direction * t - setting.o));
                 }
             }
-            _ => {}
+            FirstTry::Doubt => {}
         }
         intersect_refined::<D>(sphere, ray, range)
     }
@@ -90,12 +89,21 @@ impl Precision for Vec3 {
 
 /// The hit at `t`, with `offset` from the center to it.
 #[inline(always)]
-fn hit(sphere: &Sphere, t: f32, offset: DVec3, radius: f64) -> Hit {
+fn hit(sphere: &Sphere, t: f32, offset: DVec3) -> Hit {
+    /// Between its inverse and this, neither a radius nor its reciprocal is subnormal.
+    const ORDINARY: f32 = (1_u128 << 100) as f32;
+    // Rounded here and once more in what follows: that is 1 ulp for the point, and with the reciprocal's rounding 1.5 ulp
+    // of 1 for the normal.
+    let rounded = offset.as_vec3();
+    let normal = if sphere.radius > ORDINARY.recip() && sphere.radius < ORDINARY {
+        rounded * sphere.radius.recip()
+    } else {
+        (offset / f64::from(sphere.radius)).as_vec3()
+    };
     Hit {
         t,
-        // Rounded twice, to half a unit in the last place each time.
-        point: sphere.center + offset.as_vec3(),
-        normal: (offset * radius.recip()).as_vec3(),
+        point: sphere.center + rounded,
+        normal,
         clearance: clearance(sphere.center, sphere.radius),
     }
 }
@@ -124,7 +132,8 @@ fn line(sphere: &Sphere, ray: &Ray) -> Line {
 #[cold]
 #[inline(never)]
 fn roots_refined<D: Derivation>(sphere: &Sphere, ray: &Ray) -> Option<[f32; 2]> {
-    refine::crossings::<D, f32>(&line(sphere, ray)).map(|crossings| crossings.map(|crossing| crossing.t))
+    refine::crossings::<D, f32>(&line(sphere, ray))
+        .map(|crossings| crossings.map(|crossing| crossing.t))
 }
 
 /// The nearest hit where the first try left a doubt.
@@ -132,9 +141,9 @@ fn roots_refined<D: Derivation>(sphere: &Sphere, ray: &Ray) -> Option<[f32; 2]> 
 #[inline(never)]
 fn intersect_refined<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
     let crossings = refine::crossings::<D, f32>(&line(sphere, ray))?;
-    let Crossing { t, normal } = crossings
-        .into_iter()
-        .find(|crossing| crossing.t > 0.0 && crossing.t < f32::INFINITY && range.contains(&crossing.t))?;
+    let Crossing { t, normal } = crossings.into_iter().find(|crossing| {
+        crossing.t > 0.0 && crossing.t < f32::INFINITY && range.contains(&crossing.t)
+    })?;
     let offset = normal * f64::from(sphere.radius);
     Some(Hit {
         t,

@@ -165,10 +165,6 @@ impl Wide {
         scale(self.value.hi, self.exponent)
     }
 
-    pub(crate) fn abs(self) -> Self {
-        Self { value: self.value.abs(), ..self }
-    }
-
     /// The square root of a positive number or zero.
     pub(crate) fn sqrt(self) -> Self {
         if self.is_zero() {

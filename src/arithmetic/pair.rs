@@ -10,7 +10,7 @@ use crate::float::sqrt;
 
 /// The sum `hi + lo`, where `hi` is the sum rounded to an `f64`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pair {
+pub(crate) struct Pair {
     pub hi: f64,
     pub lo: f64,
 }

@@ -42,7 +42,9 @@ pub(crate) fn round_to_f32_exactly(t: f64, compare: impl FnOnce(f64) -> Ordering
         return low;
     }
     // Beyond the largest number stands, for rounding, the power of two that would come next.
-    let stand_in = |end: f32| if end.is_finite() { f64::from(end) } else { f64::from(end.signum()) * POWER_PAST_MAX };
+    let stand_in = |end: f32| {
+        if end.is_finite() { f64::from(end) } else { f64::from(end.signum()) * POWER_PAST_MAX }
+    };
     let midpoint = (stand_in(low) + stand_in(high)) / 2.0;
     let low_is_even = low.to_bits() % 2 == 0;
     match compare(midpoint) {
