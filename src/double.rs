@@ -67,11 +67,9 @@ impl Setting {
     /// is rounded, by half an ulp.
     #[inline(always)]
     fn polish(&self, numerator: f64, denominator: f64, half_chord: f64) -> (f64, DVec3) {
-        // One division for two quotients, the root to start from and the inverse of the slope.
-        let slope = 2.0 * half_chord;
-        let inverse = (slope * denominator).recip();
-        let t = numerator * (slope * inverse);
-        let inverse_slope = denominator * inverse;
+        let t = numerator / denominator;
+        // Taken here, because here the division does not have to wait for anything.
+        let inverse_slope = (2.0 * half_chord).recip();
 
         // x = t d - o, each coordinate in two parts.
         let along = |d: f64, c: f64, p: f64| {
