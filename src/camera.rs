@@ -28,11 +28,15 @@ use crate::{CameraError, Ray, Scalar, Vector, ViewRect};
 /// - **Perspective**: the view plane is at a distance before the eye, the focal length. Every ray comes from the eye,
 ///   `e`, and goes through `e + u U + v V - distance W`. Its direction is not unit: `t = 1` is the view plane.
 ///
-/// What it computes, it computes in f64, and rounds to the precision of `V` at the end. With [`Vec3`](glam::Vec3) the
-/// direction of a ray is within 4 ulp of the exact one, counted in ulp of its length, and the origin within 4 ulp of
-/// its largest coordinate, wherever in the scene the camera stands and however near to the view its up vector is.
-/// A value beyond the largest finite one is infinite. All of it is made of sums, products, quotients and square roots, so
-/// it is the same on every machine, the tangent of [`perspective_fov`](Self::perspective_fov) alone excepted.
+/// What it computes, it computes in f64, and rounds to the precision of `V` at the end; what would be beyond the largest
+/// finite value is infinite. So with [`Vec3`](glam::Vec3), wherever in the scene the camera stands and however near to
+/// the view its up vector is, each ray of [`ray`](Self::ray) is the exact one of the given values, rounded: the
+/// direction is off by less than 1 ulp of its length, and the origin by less than 1 ulp of its largest coordinate and
+/// 2^-50 of |e| + |u| + |v|. The latter shows only where these cancel a millionfold. With [`DVec3`](glam::DVec3) the
+/// direction is within 4 ulp of its length. (`cargo test --test camera accuracy` compares both with exact integers.)
+///
+/// All of it is made of sums, products, quotients and square roots, so it is the same on every machine; only the tangent
+/// of [`perspective_fov`](Self::perspective_fov) may not be.
 ///
 /// ```
 /// use eyeray::{Camera, ViewRect};
@@ -315,8 +319,8 @@ impl<V: Vector> Camera<V> {
     ///
     /// `None` where no eye ray reaches the point: in perspective at the eye and beside or behind it, orthographically on
     /// the view plane, where rays begin but `t > 0` does not hold, and behind it; if the point is not finite; if u or v
-    /// would not be. Whether a point is before or behind that plane is decided in f64, so within a few 2^-53 of its
-    /// distance from the eye, rounding may say either.
+    /// would not be. Whether a point is before or behind that plane is decided in f64: nearer to it than 2^-50 of the distance
+    /// from the eye, rounding may say either.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};

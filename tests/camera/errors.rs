@@ -1,0 +1,168 @@
+//! Which arguments are refused, and with what words.
+
+use core::f32::consts::{FRAC_PI_2, PI};
+
+use eyeray::{Camera, CameraError, ViewRect};
+use glam::{DVec3, Vec3, vec3};
+
+const VIEW: ViewRect = ViewRect { left: -1.0, right: 1.0, bottom: -1.0, top: 1.0 };
+const EYE: Vec3 = Vec3::new(0.0, 0.0, 5.0);
+const NOT_FINITE: [f32; 3] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
+
+/// What the three constructors say of where the camera stands.
+fn errors(eye: Vec3, target: Vec3, up: Vec3) -> [Option<CameraError>; 3] {
+    [
+        Camera::orthographic(eye, target, up, VIEW).err(),
+        Camera::perspective(eye, target, up, VIEW, 1.0).err(),
+        Camera::perspective_fov(eye, target, up, FRAC_PI_2, 1.0).err(),
+    ]
+}
+
+fn view_error(view: ViewRect) -> Option<CameraError> {
+    Camera::orthographic(EYE, Vec3::ZERO, Vec3::Y, view).err()
+}
+
+fn distance_error(distance: f32) -> Option<CameraError> {
+    Camera::perspective(EYE, Vec3::ZERO, Vec3::Y, VIEW, distance).err()
+}
+
+fn fov_error(fov_y: f32, aspect: f32) -> Option<CameraError> {
+    Camera::perspective_fov(EYE, Vec3::ZERO, Vec3::Y, fov_y, aspect).err()
+}
+
+#[test]
+fn a_vector_that_is_not_finite() {
+    for value in NOT_FINITE {
+        for axis in Vec3::AXES {
+            let wrong = Vec3::select(axis.cmpeq(Vec3::ONE), Vec3::splat(value), Vec3::ZERO);
+            assert_eq!(
+                errors(wrong, Vec3::ZERO, Vec3::Y),
+                [Some(CameraError::NotFinite("eye")); 3]
+            );
+            assert_eq!(errors(EYE, wrong, Vec3::Y), [Some(CameraError::NotFinite("target")); 3]);
+            assert_eq!(errors(EYE, Vec3::ZERO, wrong), [Some(CameraError::NotFinite("up")); 3]);
+        }
+    }
+}
+
+#[test]
+fn an_eye_at_the_target() {
+    assert_eq!(errors(EYE, EYE, Vec3::Y), [Some(CameraError::EyeAtTarget); 3]);
+    assert_eq!(
+        errors(vec3(0.0, 1.0, 2.0), vec3(-0.0, 1.0, 2.0), Vec3::Y),
+        [Some(CameraError::EyeAtTarget); 3]
+    );
+}
+
+#[test]
+fn an_up_that_gives_no_direction() {
+    assert_eq!(errors(EYE, Vec3::ZERO, Vec3::ZERO), [Some(CameraError::ZeroUp); 3]);
+    assert_eq!(errors(EYE, Vec3::ZERO, Vec3::Z), [Some(CameraError::UpAlongView); 3]);
+    assert_eq!(errors(EYE, Vec3::ZERO, Vec3::Z * -1e-40), [Some(CameraError::UpAlongView); 3]);
+}
+
+#[test]
+fn a_view_rectangle_without_area() {
+    for empty in [
+        ViewRect { left: 1.0, ..VIEW },
+        ViewRect { right: -2.0, ..VIEW },
+        ViewRect { bottom: 1.0, ..VIEW },
+        ViewRect { top: -2.0, ..VIEW },
+    ] {
+        assert_eq!(view_error(empty), Some(CameraError::EmptyView), "{empty:?}");
+    }
+    assert_eq!(
+        view_error(ViewRect { left: 0.0, right: 1e-45, bottom: -f32::MAX, top: f32::MAX }),
+        None
+    );
+}
+
+#[test]
+fn a_view_rectangle_that_is_not_finite() {
+    for value in NOT_FINITE {
+        for wrong in [
+            ViewRect { left: value, ..VIEW },
+            ViewRect { right: value, ..VIEW },
+            ViewRect { bottom: value, ..VIEW },
+            ViewRect { top: value, ..VIEW },
+            ViewRect { left: value, right: value, ..VIEW },
+            ViewRect { bottom: -value, top: value, ..VIEW },
+        ] {
+            assert_eq!(view_error(wrong), Some(CameraError::NotFinite("view")), "{wrong:?}");
+        }
+    }
+    let too_wide = ViewRect { left: -f64::MAX, right: f64::MAX, bottom: -1.0, top: 1.0 };
+    let error = Camera::orthographic(DVec3::Z, DVec3::ZERO, DVec3::Y, too_wide).err();
+    assert_eq!(error, Some(CameraError::NotFinite("view")));
+}
+
+#[test]
+fn a_distance_that_is_not_positive() {
+    for distance in [0.0, -0.0, -1.0, -1e-45, -f32::MAX] {
+        assert_eq!(distance_error(distance), Some(CameraError::DistanceNotPositive), "{distance}");
+    }
+    for distance in NOT_FINITE {
+        assert_eq!(
+            distance_error(distance),
+            Some(CameraError::NotFinite("distance")),
+            "{distance}"
+        );
+    }
+    assert_eq!(distance_error(1e-45), None);
+    assert_eq!(distance_error(f32::MAX), None);
+}
+
+#[test]
+fn a_field_of_view_out_of_range() {
+    for fov_y in [0.0, -0.0, -1.0, PI, 4.0, -f32::MAX, f32::MAX] {
+        assert_eq!(fov_error(fov_y, 1.0), Some(CameraError::FovOutOfRange), "{fov_y}");
+    }
+    for fov_y in NOT_FINITE {
+        assert_eq!(fov_error(fov_y, 1.0), Some(CameraError::NotFinite("fov_y")), "{fov_y}");
+    }
+    assert_eq!(fov_error(1e-45, 1.0), None);
+    assert_eq!(fov_error(f32::from_bits(PI.to_bits() - 1), 1.0), None);
+
+    let error = |fov_y| Camera::perspective_fov(DVec3::Z, DVec3::ZERO, DVec3::Y, fov_y, 1.0).err();
+    assert_eq!(error(core::f64::consts::PI), Some(CameraError::FovOutOfRange));
+    assert_eq!(error(f64::from_bits(core::f64::consts::PI.to_bits() - 1)), None);
+}
+
+#[test]
+fn an_aspect_that_is_not_positive() {
+    for aspect in [0.0, -0.0, -1.5, -f32::MAX] {
+        assert_eq!(fov_error(1.0, aspect), Some(CameraError::AspectNotPositive), "{aspect}");
+    }
+    for aspect in [f32::NAN, f32::INFINITY] {
+        assert_eq!(fov_error(1.0, aspect), Some(CameraError::NotFinite("aspect")), "{aspect}");
+    }
+    assert_eq!(fov_error(1.0, 1e-45), None);
+    assert_eq!(fov_error(1.0, f32::MAX), None);
+
+    // A view rectangle beyond f64, and one that underflows it.
+    let error = |fov_y, aspect| {
+        Camera::perspective_fov(DVec3::Z, DVec3::ZERO, DVec3::Y, fov_y, aspect).err()
+    };
+    assert_eq!(error(3.0, f64::MAX), Some(CameraError::NotFinite("aspect")));
+    assert_eq!(error(1e-200, 1e-200), Some(CameraError::EmptyView));
+}
+
+#[test]
+fn every_error_is_a_sentence_that_names_its_argument() {
+    for (error, sentence) in [
+        (CameraError::NotFinite("target"), "the camera's target is not finite"),
+        (CameraError::EyeAtTarget, "the camera's eye and target are the same point"),
+        (CameraError::ZeroUp, "the camera's up vector is zero"),
+        (CameraError::UpAlongView, "the camera's up vector is parallel to the direction of view"),
+        (CameraError::EmptyView, "the camera's view rectangle is empty"),
+        (
+            CameraError::DistanceNotPositive,
+            "the camera's distance to the view plane is not positive",
+        ),
+        (CameraError::FovOutOfRange, "the camera's field of view is not between 0 and π"),
+        (CameraError::AspectNotPositive, "the camera's aspect is not positive"),
+    ] {
+        let error: Box<dyn core::error::Error> = Box::new(error);
+        assert_eq!(error.to_string(), sentence);
+    }
+}
