@@ -103,13 +103,13 @@ struct Scaled {
 }
 
 impl Scaled {
-    /// `None` where the difference of the positions overflows, or all lengths are zero.
+    /// `None` where the difference of the positions is no pair, or all lengths are zero.
     fn new(exact: &Exact) -> Option<Self> {
         /// Fourth powers of what lies within this of 1 neither overflow nor lose anything in a pair.
         const NEAR: i32 = 200;
-        let &Exact { o, d, radius } = exact;
+        let &Exact { o, in_pairs, d, radius } = exact;
         let longest = o.x.hi.abs().max(o.y.hi.abs()).max(o.z.hi.abs()).max(radius);
-        if !(longest > 0.0 && longest < f64::INFINITY) {
+        if !in_pairs || longest == 0.0 {
             return None;
         }
         let length_exponent = exponent(longest);
@@ -201,22 +201,22 @@ fn normals(
 struct Exact {
     /// c - p: each coordinate the exact sum of two numbers.
     o: Triple<Pair>,
+    /// Whether those sums are pairs.
+    in_pairs: bool,
     d: Triple<f64>,
     radius: f64,
 }
 
 impl Exact {
     fn new(line: &Line) -> Self {
-        let difference = |c: f64, p: f64| {
-            let difference = two_difference(c, p);
-            // Where that overflows, an exact sum of two numbers still, if no longer a pair.
-            if difference.hi.is_finite() { difference } else { Pair { hi: c, lo: -p } }
-        };
-        Self {
-            o: Triple::from(line.center).zip(Triple::from(line.origin), difference),
-            d: Triple::from(line.direction),
-            radius: line.radius,
-        }
+        let (center, origin) = (Triple::from(line.center), Triple::from(line.origin));
+        let difference = center.zip(origin, two_difference);
+        let is_pair = |pair: Pair| pair.hi.is_finite() && pair.lo.is_finite();
+        let in_pairs = is_pair(difference.x) && is_pair(difference.y) && is_pair(difference.z);
+        // Where a difference overflows, or a step on the way to it, its two terms are an exact sum still.
+        let o =
+            if in_pairs { difference } else { center.zip(origin, |c, p| Pair { hi: c, lo: -p }) };
+        Self { o, in_pairs, d: Triple::from(line.direction), radius: line.radius }
     }
 
     fn crossings<S: Target>(&self) -> Option<[Crossing<S>; 2]> {
