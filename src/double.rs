@@ -6,7 +6,7 @@ use core::ops::Range;
 use glam::DVec3;
 
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{two_difference, two_product, two_sum};
+use crate::arithmetic::pair::{compensated_dot, two_difference, two_product};
 use crate::chord::{Chord, Derivation};
 use crate::first_try::{BothRoots, FirstTry, both_roots, nearest_ahead};
 use crate::precision::Precision;
@@ -57,43 +57,58 @@ impl Setting {
         (is_safe(chord.a) && is_safe(larger)).then_some(chord)
     }
 
-    /// The root near `t`, and where it is from the center.
+    /// The root near `numerator / denominator`, and where it is from the center.
     ///
-    /// One step of Newton's on f(t) = |t d - o|² - r², whose slope at the roots is ∓2 √discriminant. By the bounds of the
-    /// first try, e = 18 u / CLEAR = 2⁻³⁴·⁸ for t and as much for the slope, and with t a ≤ 2 |o| |d| and
-    /// √discriminant ≥ √CLEAR |o| |d|, the relative error after it is at most e² t a / (2 √discriminant) ≤ e² / √CLEAR = 2⁻⁶²
-    /// for the curvature, e² for the slope, and what f is off by. Every product and difference of the leading terms of f is
-    /// taken exactly; what is rounded is below 32 u² (o·o + r²), and so moves t by less than 2⁻⁷⁵ of itself. The final sum
-    /// is rounded, by half an ulp.
+    /// One step of Newton's on the quadratic f(t) = a t² - 2 h t + power, whose slope at the roots is ∓2 √discriminant. By the
+    /// bounds of the first try, e = [`RELATIVE_ERROR`](crate::first_try::RELATIVE_ERROR) = 2⁻³⁴·⁸ for t and as much for the
+    /// slope, and with t a ≤ 2 |o| |d| and √discriminant ≥ √CLEAR |o| |d|, the relative error after it is at most
+    /// e² t a / (2 √discriminant) ≤ e² / √CLEAR < 2⁻⁶² for the curvature, e² for the slope, and what f is off by: no rounding
+    /// error of a leading term is lost, and those of the others are below 64 u² m, which moves t by less than 2⁻⁷⁵ of itself.
+    /// The final sum is rounded, by half an ulp.
     #[inline(always)]
     fn polish(&self, numerator: f64, denominator: f64, half_chord: f64) -> (f64, DVec3) {
         let t = numerator / denominator;
         // Taken here, because here the division does not have to wait for anything.
         let inverse_slope = (2.0 * half_chord).recip();
 
-        // x = t d - o, each coordinate in two parts.
-        let along = |d: f64, c: f64, p: f64| {
-            let o = two_difference(c, p);
-            let step = two_product(t, d);
-            let x = two_difference(step.hi, o.hi);
-            (x.hi, x.lo + (step.lo - o.lo))
-        };
-        let (x, x_low) = along(self.direction.x, self.center.x, self.origin.x);
-        let (y, y_low) = along(self.direction.y, self.center.y, self.origin.y);
-        let (z, z_low) = along(self.direction.z, self.center.z, self.origin.z);
+        // The coefficients, which need not wait for t.
+        let d = Triple::from(self.direction);
+        let o_exact = Triple::from(self.center).zip(Triple::from(self.origin), two_difference);
+        let o = o_exact.map(|o| o.hi);
+        let o_low = o_exact.map(|o| o.lo);
+        let a = compensated_dot(d, d);
+        let h = compensated_dot(d, o);
+        let distance_squared = compensated_dot(o, o);
+        let radius_squared = two_product(self.radius, self.radius);
+        let power = two_difference(distance_squared.hi, radius_squared.hi);
+        let h_low = h.lo + d.dot(o_low);
+        let power_low = power.lo + ((distance_squared.lo - radius_squared.lo) + 2.0 * o.dot(o_low));
 
-        // x·x - r².
-        let [xx, yy, zz] = [x, y, z].map(|coordinate| two_product(coordinate, coordinate));
-        let rr = two_product(self.radius, self.radius);
-        let xy = two_sum(xx.hi, yy.hi);
-        let rz = two_difference(rr.hi, zz.hi);
-        let low = ((xx.lo + yy.lo) + (zz.lo - rr.lo)) + (xy.lo - rz.lo);
-        let residual = (xy.hi - rz.hi) + (low + 2.0 * (x * x_low + y * y_low + z * z_low));
+        // (a t - 2 h) t + power.
+        let at = two_product(a.hi, t);
+        let slope = two_difference(at.hi, 2.0 * h.hi);
+        let slope_low = slope.lo + (at.lo + (a.lo * t - 2.0 * h_low));
+        let product = two_product(slope.hi, t);
+        let residual = (product.hi + power.hi) + (product.lo + (slope_low * t + power_low));
 
         let correction = residual * inverse_slope;
-        let offset =
-            DVec3::new(x, y, z) + (DVec3::new(x_low, y_low, z_low) + self.direction * correction);
-        (t + correction, offset)
+        (t + correction, self.offset(t, correction))
+    }
+
+    /// From the center to where the ray is at `t + correction`: `(t + correction) d - o`.
+    #[inline(always)]
+    fn offset(&self, t: f64, correction: f64) -> DVec3 {
+        let coordinate = |d: f64, c: f64, p: f64| {
+            let o = two_difference(c, p);
+            let step = two_product(t, d);
+            let offset = two_difference(step.hi, o.hi);
+            offset.hi + (offset.lo + (step.lo - o.lo) + correction * d)
+        };
+        DVec3::new(
+            coordinate(self.direction.x, self.center.x, self.origin.x),
+            coordinate(self.direction.y, self.center.y, self.origin.y),
+            coordinate(self.direction.z, self.center.z, self.origin.z),
+        )
     }
 }
 
