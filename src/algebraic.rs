@@ -16,8 +16,8 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// t = (d·o ± √discriminant) / d·d,   discriminant = (d·o)² - (d·d) (o·o - r²)
 /// ```
 ///
-/// The direction is not assumed to be unit. What is returned is the same, bit for bit in `f32`, as [`Sphere`] and
-/// [`Geometric`](crate::Geometric) return: the contract is stated at [`Sphere`].
+/// The direction is not assumed to be unit. In `f32` the roots are the same, bit for bit, as those of
+/// [`Geometric`](crate::Geometric): what is promised is stated at [`Sphere`].
 ///
 /// Source: S. Marschner, CS4620 lecture 6, *Ray Tracing Basics*.
 ///

@@ -19,8 +19,8 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// ```
 ///
 /// The form with the cross product does not subtract two large squares, and so loses little of `l_m` even where the sphere
-/// is far away. What is returned is the same, bit for bit in `f32`, as [`Sphere`] and [`Algebraic`](crate::Algebraic)
-/// return: the contract is stated at [`Sphere`].
+/// is far away. In `f32` the roots are the same, bit for bit, as those of [`Algebraic`](crate::Algebraic): what is promised
+/// is stated at [`Sphere`].
 ///
 /// Source: S. Marschner, CS4620 lecture 6, *Ray Tracing Basics*.
 ///

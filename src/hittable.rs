@@ -4,7 +4,26 @@ use core::ops::Range;
 
 use crate::{Hit, Ray, Vector};
 
-/// Anything that a ray can meet.
+/// Anything that a ray can meet: one sphere, or many, or a shape of your own.
+///
+/// ```
+/// use eyeray::{Hittable, Ray, Sphere};
+/// use glam::{Vec3, vec3};
+///
+/// let near = Sphere::new(vec3(0.0, 0.0, -3.0), 1.0);
+/// let far = Sphere::new(vec3(0.0, 0.0, -9.0), 1.0);
+/// let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
+///
+/// // A slice of hittable things is hittable, and so is a reference to one, or a box.
+/// let scene: &dyn Hittable = &[far, near].as_slice();
+/// assert_eq!(scene.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(2.0));
+///
+/// // A shadow ray asks only whether anything is in the way, here of a lamp at t = 1.
+/// assert!(!scene.occludes(&ray, 0.0..1.0));
+/// ```
+///
+/// A range is half open, as everywhere in Rust, and counts in lengths of the ray's direction. Whatever the range, only
+/// `t` > 0 is a hit. `0.0..f32::INFINITY` is the whole half line; a range that is empty, or has a NaN, holds nothing.
 pub trait Hittable<V: Vector = glam::Vec3> {
     /// The nearest hit with `t` in `range`, or `None`.
     fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>>;
@@ -54,6 +73,19 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
 }
 
 /// Which of `objects` the ray meets first with `t` in `range`, and where: of equal `t`, the lowest index.
+///
+/// Every object is tried in turn. For many spheres, `Spheres` (with the feature `alloc`) gives the same answer sooner.
+///
+/// ```
+/// use eyeray::{Ray, Sphere, nearest};
+/// use glam::{Vec3, vec3};
+///
+/// let spheres = [Sphere::new(vec3(0.0, 0.0, -9.0), 1.0), Sphere::new(vec3(0.0, 0.0, -3.0), 1.0)];
+/// let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
+///
+/// let found = nearest(&spheres, &ray, 0.0..f32::INFINITY);
+/// assert_eq!(found.map(|(index, hit)| (index, hit.t)), Some((1, 2.0)));
+/// ```
 pub fn nearest<V: Vector, H: Hittable<V>>(
     objects: &[H],
     ray: &Ray<V>,

@@ -2,34 +2,131 @@
 
 use core::ops::Range;
 
+use glam::DVec3;
+
 use crate::algebraic::Quadratic;
+use crate::arithmetic::pair::{Pair, two_difference};
+use crate::arithmetic::rounding::RoundDown;
 use crate::geometric::ClosestApproach;
 use crate::{Hit, Hittable, Ray, Vector};
 
 /// A sphere.
+///
+/// ```
+/// use eyeray::{Hittable, Ray, Sphere};
+/// use glam::{Vec3, vec3};
+///
+/// let sphere = Sphere::new(vec3(0.0, 0.0, -4.0), 1.0);
+/// let ray = Ray::new(Vec3::ZERO, vec3(0.0, 0.0, -2.0));
+///
+/// // The ray enters at z = -3, one and a half lengths of its direction away, and leaves at z = -5.
+/// assert_eq!(sphere.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(1.5));
+/// assert_eq!(sphere.roots_algebraic(&ray), Some([1.5, 2.5]));
+/// assert_eq!(sphere.roots_geometric(&ray), Some([1.5, 2.5]));
+/// ```
+///
+/// # What is promised
+///
+/// For all finite values of a ray's and a sphere's fields, with t for the exact real root of those values as they are:
+///
+/// 1. With [`Vec3`](glam::Vec3), each root is t rounded to the nearest `f32`, ties to even; beyond the largest it is infinite,
+///    and below the normal ones it is rounded gradually. So [`Algebraic`](crate::Algebraic) and
+///    [`Geometric`](crate::Geometric) give the same bits, on every machine, with fused multiply-add or without.
+/// 2. With [`DVec3`](glam::DVec3), each root is within 1 ulp of t. With both, hit or miss is never wrong.
+/// 3. A line that touches the sphere hits it, with two equal roots. A sphere of radius 0 is hit exactly if the line goes
+///    through its center.
+/// 4. A NaN or an infinity in the ray or the sphere, a zero direction or a negative radius is `None`. Nothing panics, and
+///    no result is NaN.
+/// 5. The direction need not be unit, and t counts in its lengths: of 2ᵏ times the direction, t is 2⁻ᵏ times as large,
+///    exactly.
+/// 6. A ray is a half line: what is hit is the smallest root that, as returned, is finite, above 0 and in the range.
+/// 7. [`Hit::point`] is within 1.5 ulp (with `DVec3` 4) of where the exact line meets the sphere, coordinate by coordinate,
+///    an ulp being that of the larger of the coordinate and |center| + radius. [`Hit::normal`] is within 2 ulp of 1 of the
+///    outward unit normal there. At radius 0, where there is none, it points back along the ray.
+/// 8. A ray of [`Hit::spawn`] never meets the surface that it leaves.
+///
+/// # How
+///
+/// Each derivation, [`Algebraic`](crate::Algebraic) and [`Geometric`](crate::Geometric), is first carried out in `f64`, with
+/// a bound on its error. Where that decides the hit and both ends of the interval around the root round to the same `f32`
+/// (Ziv's test), that is the answer. Otherwise the derivation is carried out again in pairs of `f64`; and where pairs cannot
+/// tell either, in integers, exactly.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Sphere<V: Vector = glam::Vec3> {
     /// The center.
     pub center: V,
-    /// The radius. A negative one is no sphere: nothing meets it.
+    /// The radius. A sphere of radius 0 is a point; a negative radius is no sphere, and nothing meets it.
     pub radius: V::Scalar,
 }
 
 impl<V: Vector> Sphere<V> {
-    /// The sphere of that center and radius.
+    /// The sphere of that center and radius. Any value is allowed.
     #[inline]
     pub const fn new(center: V, radius: V::Scalar) -> Self {
         Self { center, radius }
     }
 
-    /// Both roots along the whole line, ascending, by the algebraic derivation.
+    /// The lowest and the highest corner of the smallest box that holds the sphere, each coordinate rounded outwards.
+    ///
+    /// What nothing can meet, with a negative radius, a NaN or an infinity, has an empty box: from +∞ to -∞.
+    ///
+    /// ```
+    /// use eyeray::Sphere;
+    /// use glam::{Vec3, vec3};
+    ///
+    /// let sphere = Sphere::new(vec3(0.5, 1.0, 1e10), 0.1);
+    /// let (low, high) = sphere.bounds();
+    ///
+    /// // 1e10 ± 0.1 lies between the neighbors of 1e10, which are 1,024 away.
+    /// assert_eq!((low.z, high.z), (1e10 - 1024.0, 1e10 + 1024.0));
+    /// assert!(f64::from(low.x) <= 0.5 - f64::from(sphere.radius));
+    /// assert!(f64::from(high.x) >= 0.5 + f64::from(sphere.radius));
+    /// ```
+    pub fn bounds(&self) -> (V, V) {
+        let center = self.center.to_f64();
+        let radius: f64 = self.radius.into();
+        if !(center.is_finite() && (0.0..f64::INFINITY).contains(&radius)) {
+            return (V::from_f64(DVec3::INFINITY), V::from_f64(DVec3::NEG_INFINITY));
+        }
+        // Upwards is downwards in the mirror.
+        let round_down = |center: DVec3| {
+            V::from_f64(DVec3::from_array(center.to_array().map(|c| {
+                let Pair { hi, lo } = two_difference(c, radius);
+                V::Scalar::round_down(hi, lo).into()
+            })))
+        };
+        (round_down(center), -round_down(-center))
+    }
+
+    /// Both roots along the whole line, ascending, behind the origin too, by the algebraic derivation: see
+    /// [`Algebraic`](crate::Algebraic). `None` where the line misses.
+    ///
+    /// ```
+    /// use eyeray::{Ray, Sphere};
+    /// use glam::{DVec3, dvec3};
+    ///
+    /// let sphere = Sphere::new(DVec3::ZERO, 5.0);
+    /// let ray = Ray::new(dvec3(1.0, 3.0, 0.0), dvec3(2.0, 0.0, 0.0));
+    /// assert_eq!(sphere.roots_algebraic(&ray), Some([-2.5, 1.5]));
+    /// ```
     #[inline(always)]
     pub fn roots_algebraic(&self, ray: &Ray<V>) -> Option<[V::Scalar; 2]> {
         V::roots::<Quadratic>(self, ray)
     }
 
-    /// Both roots along the whole line, ascending, by the geometric derivation.
+    /// Both roots along the whole line, ascending, behind the origin too, by the geometric derivation: see
+    /// [`Geometric`](crate::Geometric). `None` where the line misses.
+    ///
+    /// ```
+    /// use eyeray::{Ray, Sphere};
+    /// use glam::{DVec3, dvec3};
+    ///
+    /// // The line touches the sphere: two equal roots.
+    /// let sphere = Sphere::new(DVec3::ZERO, 5.0);
+    /// let ray = Ray::new(dvec3(-6.0, 5.0, 0.0), dvec3(2.0, 0.0, 0.0));
+    /// assert_eq!(sphere.roots_geometric(&ray), Some([3.0, 3.0]));
+    /// ```
     #[inline(always)]
     pub fn roots_geometric(&self, ray: &Ray<V>) -> Option<[V::Scalar; 2]> {
         V::roots::<ClosestApproach>(self, ray)

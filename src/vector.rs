@@ -5,6 +5,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
+use crate::arithmetic::rounding::RoundDown;
 use crate::precision::Precision;
 
 /// A glam vector of three dimensions: [`Vec3`] or [`DVec3`].
@@ -62,7 +63,7 @@ pub trait Vector:
 
 /// A coordinate of a [`Vector`]: `f32` or `f64`. Sealed, as [`Vector`] is.
 pub trait Scalar:
-    Sealed
+    RoundDown
     + Copy
     + Debug
     + Display
@@ -89,11 +90,6 @@ pub trait Scalar:
     /// The nearest value of this precision: beyond the largest finite one, infinite.
     fn from_f64(value: f64) -> Self;
 }
-
-/// Keeps [`Scalar`] to the two types of this file.
-pub trait Sealed {}
-impl Sealed for f32 {}
-impl Sealed for f64 {}
 
 impl Scalar for f32 {
     const ZERO: Self = 0.0;

@@ -85,7 +85,11 @@ impl Sum {
         for (target, part) in self.digits[digit..].iter_mut().zip(product) {
             let shifted = (part << shift) | spill;
             spill = shifted >> 32;
-            let part = (shifted & 0xffff_ffff).cast_signed() * times.abs();
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "the low half; the high half is carried on"
+            )]
+            let part = i64::from(shifted as u32) * times.abs();
             *target += if negative { -part } else { part };
         }
     }
@@ -119,8 +123,13 @@ impl Sum {
             let digit = top.checked_sub(below).map_or(0, |index| self.digits[index]);
             (leading << DIGIT) | u128::from(digit.unsigned_abs())
         });
-        let zeros = leading.leading_zeros().cast_signed();
-        let exponent = LEAST + DIGIT * (i32::try_from(top).unwrap_or(0) - 3) + 127 - zeros;
+        let zeros = leading.leading_zeros();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_possible_wrap,
+            reason = "both are small"
+        )]
+        let exponent = LEAST + DIGIT * (top as i32 - 3) + 127 - zeros as i32;
         let value = leading_pair(leading << zeros);
         Wide { value: if negative { -value } else { value }, exponent }
     }

@@ -1,4 +1,4 @@
-//! Rounding to `f32` once and for all: Ziv's test.
+//! Rounding: to the nearest `f32` for sure, and downwards.
 //!
 //! Ziv, *Fast Evaluation of Elementary Mathematical Functions with Correctly Rounded Last Bit* (1991): if both ends of an
 //! interval that holds the exact value round to the same `f32`, that is the exact value correctly rounded.
@@ -11,7 +11,7 @@ const EXCESS: u32 = 1 << 29;
 const HALFWAY: u32 = EXCESS / 2;
 
 /// 2¹²⁸.
-const POWER_PAST_MAX: f64 = 2.0 * (1_u128 << 127) as f64;
+const POWER_PAST_MAX: f64 = 2.0 * f64::from_bits((1023 + 127) << 52);
 
 /// Whether `t`, known to `MARGIN` units in its last place, is sure to round to the `f32` that the exact value rounds to.
 /// Says nothing of a `t` below the normal `f32`.
@@ -45,11 +45,46 @@ pub(crate) fn round_to_f32_exactly(t: f64, compare: impl FnOnce(f64) -> Ordering
     let stand_in = |end: f32| {
         if end.is_finite() { f64::from(end) } else { f64::from(end.signum()) * POWER_PAST_MAX }
     };
-    let midpoint = (stand_in(low) + stand_in(high)) / 2.0;
+    let midpoint = f64::midpoint(stand_in(low), stand_in(high));
     let low_is_even = low.to_bits() % 2 == 0;
     match compare(midpoint) {
         Ordering::Less => low,
         Ordering::Equal if low_is_even => low,
         _ => high,
+    }
+}
+
+/// The next number below a finite one.
+macro_rules! next_down {
+    ($x:expr) => {
+        if $x > 0.0 {
+            Self::from_bits($x.to_bits() - 1)
+        } else if $x < 0.0 {
+            Self::from_bits($x.to_bits() + 1)
+        } else {
+            -Self::from_bits(1)
+        }
+    };
+}
+
+/// A type of numbers that an exact sum can be rounded down to.
+pub trait RoundDown: Sized {
+    /// The largest number of this type that is no larger than `hi + lo`, where `hi` is that sum rounded; of one that
+    /// overflows, an infinity.
+    fn round_down(hi: f64, lo: f64) -> Self;
+}
+
+impl RoundDown for f32 {
+    #[expect(clippy::cast_possible_truncation, reason = "rounding is what this does")]
+    fn round_down(hi: f64, lo: f64) -> Self {
+        let nearest = hi as f32;
+        let excess = f64::from(nearest) - hi;
+        if excess > 0.0 || (excess == 0.0 && lo < 0.0) { next_down!(nearest) } else { nearest }
+    }
+}
+
+impl RoundDown for f64 {
+    fn round_down(hi: f64, lo: f64) -> Self {
+        if lo < 0.0 { next_down!(hi) } else { hi }
     }
 }
