@@ -14,7 +14,8 @@ use core::ops::Range;
 
 use glam::{DVec2, DVec3};
 
-use crate::basis::{basis, scaled, shrink};
+use crate::arithmetic::scaling::{exponent, scale};
+use crate::basis::basis;
 use crate::float::tan;
 use crate::{CameraError, Ray, Scalar, Vector, ViewRect};
 
@@ -339,28 +340,31 @@ impl<V: Vector> Camera<V> {
         if !point.is_finite() {
             return None;
         }
-        let shrink = shrink(point - self.eye);
+        // Shrunk if their difference, or a dot product of it, could overflow.
+        let shrink = if largest(point - self.eye) < HUGE { 1.0 } else { SHRINK };
         let from_eye = point * shrink - self.eye * shrink;
-        // Before any scaling: of a point at the eye itself there is nothing to scale.
-        if from_eye == DVec3::ZERO {
-            return None;
-        }
-        let (from_eye, depth) = match self.projection {
-            Projection::Orthographic => (from_eye, -from_eye.dot(self.w)),
-            Projection::Perspective { .. } => {
-                let [from_eye] = scaled([from_eye]);
-                (from_eye, -from_eye.dot(self.w))
+        let uv = match self.projection {
+            Projection::Orthographic => {
+                let reached = -from_eye.dot(self.w) > 0.0;
+                reached.then(|| self.in_plane(from_eye) / shrink)?
+            }
+            Projection::Perspective { distance } => {
+                // Only its direction counts: where it is tiny, its products with the basis would lose digits.
+                let exponent = exponent(largest(from_eye));
+                let from_eye = DVec3::from_array(
+                    from_eye.to_array().map(|coordinate| scale(coordinate, -exponent)),
+                );
+                let depth = -from_eye.dot(self.w);
+                (depth > 0.0).then(|| self.in_plane(from_eye) / depth * distance)?
             }
         };
-        if depth <= 0.0 {
-            return None;
-        }
-        let in_plane = DVec2::new(from_eye.dot(self.u), from_eye.dot(self.v));
-        let uv = V::vec2_from_f64(match self.projection {
-            Projection::Orthographic => in_plane / shrink,
-            Projection::Perspective { distance } => in_plane / depth * distance,
-        });
+        let uv = V::vec2_from_f64(uv);
         V::vec2_to_f64(uv).is_finite().then_some(uv)
+    }
+
+    /// How far `vector` goes along U and V.
+    fn in_plane(&self, vector: DVec3) -> DVec2 {
+        DVec2::new(vector.dot(self.u), vector.dot(self.v))
     }
 
     /// The unit vectors U (to the right), V (up) and W (backwards), at right angles to one another.
@@ -400,6 +404,17 @@ impl<V: Vector> Camera<V> {
             Projection::Perspective { distance } => Some(V::Scalar::from_f64(distance)),
         }
     }
+}
+
+/// 2^1000: what is below can be multiplied by unit vectors and summed up without overflow.
+const HUGE: f64 = f64::from_bits(0x7e70_0000_0000_0000);
+
+/// 2^-64: brings any point below [`HUGE`].
+const SHRINK: f64 = f64::from_bits(0x3bf0_0000_0000_0000);
+
+/// The largest coordinate, sign apart.
+fn largest(vector: DVec3) -> f64 {
+    vector.abs().max_element()
 }
 
 /// The same rectangle in f64.

@@ -27,8 +27,7 @@ pub enum CameraError {
     EyeAtTarget,
     /// The up vector is zero.
     ZeroUp,
-    /// The up vector points exactly along the direction of view, or exactly against it. In f64 so does one that differs
-    /// from that by less than 2^-960 radians.
+    /// The up vector points exactly along the direction of view, or exactly against it.
     UpAlongView,
     /// The view rectangle has no area: its right is not greater than its left, or its top not than its bottom.
     EmptyView,

@@ -163,6 +163,11 @@ impl Wide {
         self.value.hi == 0.0
     }
 
+    /// The e of 2ᵉ ≤ |x| < 2ᵉ⁺¹, for the value x of a [`Sum`] that is not zero.
+    pub(crate) fn exponent(self) -> i32 {
+        self.exponent
+    }
+
     /// The number times 2ᵉ, as a pair: with e its own exponent negated, in the middle of the range.
     pub(crate) fn scaled(self, e: i32) -> Pair {
         let e = self.exponent.saturating_add(e);

@@ -49,25 +49,9 @@ fn unit(vector: &Vector) -> Vector {
     vector.clone().map(|coordinate| (coordinate << (2 * UNIT_BITS)) / &length)
 }
 
-/// The sine of the angle between up and the direction of view, as a power of two, or `None` where it is 0.
-pub(crate) fn log2_sine(eye: DVec3, target: DVec3, up: DVec3) -> Option<f64> {
-    let (up, back) = (integers(up), back(eye, target));
-    // Of the square roots, the halved logarithms.
-    let [sine, up, back] = [cross(&up, &back), up, back].map(|vector| dot(&vector, &vector));
-    (sine.sign() != NoSign).then(|| (log2(&sine) - log2(&up) - log2(&back)) / 2.0)
-}
-
-fn log2(number: &BigInt) -> f64 {
-    let (leading, exponent) = leading(number);
-    leading.log2() + f64::from(exponent)
-}
-
-/// `number`, rounded downwards to 53 bits, as those bits and the power of two that they count.
-fn leading(number: &BigInt) -> (f64, i32) {
-    let exponent = number.bits().saturating_sub(53);
-    let bits: u64 = (number >> exponent).try_into().expect("53 bits");
-    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
-    (bits as f64, exponent.try_into().expect("a small shift"))
+/// Whether up is exactly parallel to the direction of view.
+pub(crate) fn parallel(eye: DVec3, target: DVec3, up: DVec3) -> bool {
+    cross(&integers(up), &back(eye, target)).iter().all(|coordinate| coordinate.sign() == NoSign)
 }
 
 fn back(eye: DVec3, target: DVec3) -> Vector {
@@ -137,8 +121,11 @@ impl Exact {
 
 /// A number of multiples of 2^-1330, to 53 bits and rounded downwards.
 fn to_f64(number: &BigInt) -> f64 {
-    let (leading, exponent) = leading(number);
-    let exponent = exponent - 1330;
+    let excess = number.bits().saturating_sub(53);
+    let bits: u64 = (number >> excess).try_into().expect("53 bits");
+    let exponent = i32::try_from(excess).expect("a small shift") - 1330;
+    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
+    let leading = bits as f64;
     // In two steps, because the power alone may underflow.
     leading * 2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2)
 }
