@@ -81,8 +81,8 @@ fn a_longer_focal_length_magnifies() -> Result<(), CameraError> {
     Ok(())
 }
 
-/// u = l + (r - l) (i + 0.5) / n_x and v = b + (t - b) (j + 0.5) / n_y, where j counts rows from the bottom: the same as
-/// v = t - (t - b) (j' + 0.5) / n_y with rows counted from the top.
+/// `u = l + (r - l) (i + 0.5) / n_x` and `v = b + (t - b) (j + 0.5) / n_y`, where j counts rows from the bottom: the same
+/// as `v = t - (t - b) (j' + 0.5) / n_y` with rows counted from the top.
 #[test]
 fn pixel_centers_divide_the_view_rectangle() -> Result<(), CameraError> {
     let view = ViewRect { left: -1.0, right: 3.0, bottom: 0.0, top: 2.0 };
@@ -137,11 +137,11 @@ fn the_discriminant_tells_hit_from_miss() {
     }
 }
 
-/// Geometric, for a unit direction: the closest approach to the center is at t_m = -p·d, its distance is l_m with
-/// l_m² = p·p - (p·d)², and the roots are Δt = √(1 - l_m²) before and after it.
+/// Geometric, for a unit direction: the closest approach to the center is at `t_m = -p·d`, its distance is `l_m` with
+/// `l_m² = p·p - (p·d)²`, and the roots are `Δt = √(1 - l_m²)` before and after it.
 ///
-/// From p = (0, 0.6, 2) along -z: t_m = 2, l_m² = 4.36 - 4 = 0.36, Δt = 0.8. Binary floats have no 0.6, so here the whole
-/// scene is five times as large, and 1 - l_m² becomes 25 - l_m².
+/// From p = (0, 0.6, 2) along -z: `t_m = 2`, `l_m² = 4.36 - 4 = 0.36`, `Δt = 0.8`. Binary floats have no 0.6, so here the
+/// whole scene is five times as large, and `1 - l_m²` becomes `25 - l_m²`.
 #[test]
 fn the_roots_lie_a_half_chord_from_the_closest_approach() {
     let sphere = Sphere::new(Vec3::ZERO, 5.0);

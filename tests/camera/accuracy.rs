@@ -171,7 +171,7 @@ fn check_orthonormal([u, v, w]: [DVec3; 3]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn everyday_rays_are_rounded_once(case in everyday()) {

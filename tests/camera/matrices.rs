@@ -88,6 +88,8 @@ fn widened(ray: &Ray) -> Ray<DVec3> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
+
     #[test]
     fn a_point_lies_on_the_ray_of_the_pixel_that_shows_it(
         scene in scene(), x in 0.0..1.0f64, y in 0.0..1.0f64, depth in 0.2..100.0f64,
