@@ -7,14 +7,15 @@
 //! ```
 //!
 //! With an eye far from the origin and near its target, or an up nearly along the view, `target - eye` and `up × w`
-//! cancel, and what is left of them could be all rounding. So both are computed exactly and rounded once, which also
-//! tells for sure whether there is anything left.
+//! cancel, and what is left of them could be all rounding. So both are computed exactly, which also tells for sure whether
+//! there is anything left, and the basis in pairs, of which only the result is rounded to f64.
 
 use glam::DVec3;
 
 use crate::CameraError;
 use crate::arithmetic::exact::{Sum, Wide};
-use crate::float::sqrt;
+use crate::arithmetic::number::Triple;
+use crate::arithmetic::pair::Pair;
 
 /// The basis u, v, w of a camera whose `eye`, `target` and `up` are finite.
 pub(crate) fn basis(eye: DVec3, target: DVec3, up: DVec3) -> Result<[DVec3; 3], CameraError> {
@@ -28,7 +29,8 @@ pub(crate) fn basis(eye: DVec3, target: DVec3, up: DVec3) -> Result<[DVec3; 3], 
         sum([[up[i], eye[j]], [-up[i], target[j]], [-up[j], eye[i]], [up[j], target[i]]])
     });
     let u = unit(right).ok_or(CameraError::UpAlongView)?;
-    Ok([u, w.cross(u), w])
+    let v = w.cross(u);
+    Ok([u, v, w].map(|axis| axis.map(|coordinate| coordinate.hi).into()))
 }
 
 /// The sum of the products.
@@ -41,10 +43,12 @@ fn sum<const N: usize>(products: [[f64; 2]; N]) -> Wide {
 }
 
 /// The unit vector along `vector`, unless that is zero.
-fn unit(vector: [Wide; 3]) -> Option<DVec3> {
+fn unit(vector: [Wide; 3]) -> Option<Triple<Pair>> {
     let exponent =
         vector.into_iter().filter(|coordinate| !coordinate.is_zero()).map(Wide::exponent).max()?;
     // With the largest coordinate between 1 and 2, the length neither overflows nor underflows.
-    let vector = DVec3::from_array(vector.map(|coordinate| coordinate.scaled(-exponent).hi));
-    Some(vector / sqrt(vector.length_squared()))
+    let [x, y, z] = vector.map(|coordinate| coordinate.scaled(-exponent));
+    let vector = Triple { x, y, z };
+    let length = vector.dot(vector).sqrt();
+    Some(vector.map(|coordinate| coordinate / length))
 }

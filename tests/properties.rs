@@ -26,7 +26,7 @@ trait Precision: Vector {
     /// three of them are √3 times as much.
     const POINT_ERROR: f64;
     /// How far a ray may be from the exact one at t, relative to its length: direction and product are rounded once each in
-    /// f32. In f64 the camera's own rounding counts: 4 ulp for the ray and as much for its projection.
+    /// f32. In f64 the camera's own rounding counts: 7 ulp for the ray, and 1 for the product.
     const RAY_ERROR: f64;
 }
 

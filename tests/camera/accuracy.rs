@@ -147,13 +147,17 @@ fn check_f64(
     let exact = exact::Camera::new(eye, target, up);
 
     for (computed, exact) in camera.basis().into_iter().zip(exact.basis()) {
+        // Rounded once here too.
         let error = exact.error(computed) / f64::EPSILON;
-        prop_assert!(error <= 2.0, "basis {error} ulp of 1");
+        prop_assert!(error <= 0.87 / 2.0, "basis {error} ulp of 1");
     }
     let direction = exact.direction(uv, distance);
     if direction.length() < f64::MAX / 4.0 {
         let error = direction.error(camera.ray(uv).direction) / ulp_f64(direction.length());
-        prop_assert!(error <= 4.0, "direction {error} ulp");
+        // A coordinate sums up three products. With L the length of the direction, they come to L at most, and are off by
+        // half an ulp of L each: √3 half ulps from the basis in quadrature, one from the products, two from the sums,
+        // 3.9 in all with a half ulp counted generously, as 2^-53 L. Three coordinates are √3 times as much.
+        prop_assert!(error <= 7.0, "direction {error} ulp");
     }
     Ok(())
 }
