@@ -377,3 +377,12 @@ macro_rules! properties {
 
 properties!(single, f32, Vec3, Vec2);
 properties!(double, f64, DVec3, DVec2);
+
+/// Found by the properties above: a ray that grazes the unit sphere 1e-27 inside its limb. Both routines have the same t,
+/// and the half-chord of 4.8e-14 is what tells their points apart.
+#[test]
+fn the_two_routines_agree_on_a_point_at_the_limb() -> TestCaseResult {
+    let sphere = Sphere::new(Vec3::new(0.0, 1.151_337_6e-27, 0.0), 1.0);
+    let ray = Ray::new(Vec3::new(0.0, 1.0, -6.60017), Vec3::new(0.0, 0.0, 156.097_73));
+    agree(&sphere, &ray)
+}
