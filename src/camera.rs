@@ -33,7 +33,7 @@ use crate::{CameraError, Ray, Scalar, Vector, ViewRect};
 /// finite value is infinite. So with [`Vec3`](glam::Vec3), wherever in the scene the camera stands and however near to
 /// the view its up vector is, each ray of [`ray`](Self::ray) is the exact one of the given values, rounded: the
 /// direction is off by less than 1 ulp of its length, and the origin by less than 1 ulp of its largest coordinate and
-/// 2^-50 of |e| + |u| + |v|. The latter shows only where these cancel a millionfold. With [`DVec3`](glam::DVec3) the
+/// 2^-50 of |e| + |u| + |v|. The latter shows only where these cancel to 2^-27. With [`DVec3`](glam::DVec3) the
 /// direction is within 7 ulp of its length. (`cargo test --test camera accuracy` compares both with exact integers.)
 ///
 /// All of it is made of sums, products, quotients and square roots, so it is the same on every machine; only the tangent
