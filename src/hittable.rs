@@ -15,7 +15,8 @@ use crate::{Hit, Ray, Vector};
 /// let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
 ///
 /// // A slice of hittable things is hittable, and so is a reference to one, or a box.
-/// let scene: &dyn Hittable = &[far, near].as_slice();
+/// let scene = [far, near];
+/// let scene: &dyn Hittable = &scene.as_slice();
 /// assert_eq!(scene.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(2.0));
 ///
 /// // A shadow ray asks only whether anything is in the way, here of a lamp at t = 1.
