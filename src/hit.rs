@@ -93,9 +93,9 @@ impl<V: Vector> Hit<V> {
     #[inline]
     fn outwards(&self, direction: V) -> f64 {
         // So that even products of subnormal numbers do not vanish, nor those of the largest overflow.
-        const SMALL: f64 = 1.0 / (1_u128 << 127) as f64;
+        const SMALL: f64 = 1e-30;
         let direction: DVec3 = direction.to_f64();
-        let scale = if direction.abs().max_element() < SMALL { 1.0 / SMALL } else { 0.25 };
+        let scale = if direction.abs().max_element() < SMALL { SMALL.recip() } else { 0.25 };
         (direction * scale).dot(self.normal.to_f64())
     }
 }

@@ -12,9 +12,9 @@ use crate::precision::Precision;
 use crate::refine::{self, Crossing, Line, Target};
 use crate::{Hit, Ray, Sphere};
 
-/// The first try's error in units of the last of 53 places: its relative error times 2⁵³.
+/// The first try's error in units of the last of 53 places, at most its relative error over 2⁻⁵³.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "294,912")]
-const MARGIN: u32 = (RELATIVE_ERROR * (1_u64 << 53) as f64) as u32;
+const MARGIN: u32 = (RELATIVE_ERROR / (f64::EPSILON / 2.0)) as u32;
 
 /// A line and a sphere in `f64`.
 struct Setting {
@@ -91,7 +91,7 @@ impl Precision for Vec3 {
 #[inline(always)]
 fn hit(sphere: &Sphere, t: f32, offset: DVec3) -> Hit {
     /// Between its inverse and this, neither a radius nor its reciprocal is subnormal.
-    const ORDINARY: f32 = (1_u128 << 100) as f32;
+    const ORDINARY: f32 = 1e30;
     // Rounded here and once more in what follows: that is 1 ulp for the point, and with the reciprocal's rounding 1.5 ulp
     // of 1 for the normal.
     let rounded = offset.as_vec3();

@@ -3,7 +3,6 @@
 /// The exponent e of a finite nonzero `x`: 2ᵉ ≤ |x| < 2ᵉ⁺¹ (for a subnormal number, −1023). Of zero, −1023 too.
 #[inline]
 pub(crate) fn exponent(x: f64) -> i32 {
-    #[expect(clippy::cast_possible_truncation, reason = "eleven bits")]
     let biased = (x.to_bits() >> 52) as i32 & 0x7ff;
     biased - 1023
 }
