@@ -9,8 +9,10 @@ use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{compensated_dot, two_difference, two_product};
 use crate::chord::{Chord, Derivation};
 use crate::first_try::{BothRoots, FirstTry, both_roots, nearest_ahead};
+use crate::geometric::ClosestApproach;
 use crate::precision::Precision;
-use crate::refine::{self, Crossing, Line, Target};
+use crate::refine::{self, Crossings, Line, Target};
+use crate::second_try::{Estimate, Root, SecondTry, second_try};
 use crate::{Hit, Ray, Sphere};
 
 /// Whether a square, a or the larger of o·o and r², is between 2⁻⁴⁸⁰ and 2⁴⁸⁰: then no product of two of them overflows, and
@@ -22,6 +24,9 @@ fn is_safe(square: f64) -> bool {
     // Above the span are all negative numbers, infinities and NaN.
     square.to_bits().wrapping_sub(LEAST) < SPAN
 }
+
+/// Of the residual that [`Setting::polish`] takes, in m: what is rounded in it.
+const RESIDUAL_ERROR: f64 = 64.0 * (f64::EPSILON / 2.0) * (f64::EPSILON / 2.0);
 
 /// A line and a sphere.
 struct Setting {
@@ -138,7 +143,7 @@ impl Precision for DVec3 {
                 FirstTry::Doubt => {}
             }
         }
-        intersect_refined::<D>(sphere, ray, range)
+        intersect_refined(sphere, ray, range)
     }
 
     #[inline(always)]
@@ -156,7 +161,7 @@ impl Precision for DVec3 {
                 BothRoots::Doubt => {}
             }
         }
-        roots_refined::<D>(sphere, ray)
+        roots_refined(sphere, ray)
     }
 }
 
@@ -171,35 +176,61 @@ fn clearance(sphere: &Sphere<DVec3>) -> f64 {
     (center * EIGHT_ULPS + sphere.radius * EIGHT_ULPS).max(8.0 * f64::from_bits(1))
 }
 
-fn line(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> Line {
-    Line {
-        origin: ray.origin,
-        direction: ray.direction,
-        center: sphere.center,
-        radius: sphere.radius,
+/// Both crossings where the first try left a doubt.
+#[inline(always)]
+fn crossings(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> Option<Crossings<f64>> {
+    let line = Line::new(sphere, ray);
+    let setting = Setting::new(sphere, ray);
+    if setting.chord::<ClosestApproach>().is_some() {
+        match second_try(line.o(), line.direction.into(), line.radius) {
+            SecondTry::Miss => return None,
+            SecondTry::Hit(estimate) => {
+                if let Some(crossings) = settle(&estimate, &setting) {
+                    return Some(crossings);
+                }
+            }
+            SecondTry::Doubt => {}
+        }
     }
+    refine::crossings(&line)
+}
+
+/// The roots of the second try, polished, where the errors that this leaves allow.
+#[inline(always)]
+fn settle(estimate: &Estimate, setting: &Setting) -> Option<Crossings<f64>> {
+    let Estimate { a, half_chord, error, roots, .. } = *estimate;
+    let o = setting.center - setting.origin;
+    let larger = o.length_squared().max(setting.radius_squared);
+    let polish = |root: Root, half_chord: f64| {
+        let Root { numerator, denominator, relative_error } = root;
+        let (t, offset) = setting.polish(numerator, denominator, half_chord);
+        // As derived there: what the curvature, the slope and the residual leave, in t.
+        let step = relative_error * t.abs();
+        let left = (step * (step * a + 2.0 * error) + RESIDUAL_ERROR * larger) / half_chord.abs();
+        let along = setting.radius * f64::NORMAL_ERROR;
+        let settled = left < f64::EPSILON / 8.0 * t.abs() && left * left * a < along * along;
+        settled.then_some((t, offset / setting.radius))
+    };
+    let (near, far) = (polish(roots[0], half_chord)?, polish(roots[1], -half_chord)?);
+    Some(Crossings { t: [near.0, far.0], normals: [near.1, far.1] })
 }
 
 /// Both roots where the first try left a doubt.
 #[cold]
 #[inline(never)]
-fn roots_refined<D: Derivation>(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> Option<[f64; 2]> {
-    refine::crossings::<D, f64>(&line(sphere, ray))
-        .map(|crossings| crossings.map(|crossing| crossing.t))
+fn roots_refined(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> Option<[f64; 2]> {
+    crossings(sphere, ray).map(|crossings| crossings.t)
 }
 
 /// The nearest hit where the first try left a doubt.
 #[cold]
 #[inline(never)]
-fn intersect_refined<D: Derivation>(
+fn intersect_refined(
     sphere: &Sphere<DVec3>,
     ray: &Ray<DVec3>,
     range: Range<f64>,
 ) -> Option<Hit<DVec3>> {
-    let crossings = refine::crossings::<D, f64>(&line(sphere, ray))?;
-    let Crossing { t, normal } = crossings.into_iter().find(|crossing| {
-        crossing.t > 0.0 && crossing.t < f64::INFINITY && range.contains(&crossing.t)
-    })?;
+    let (t, normal) = crossings(sphere, ray)?.nearest(&range)?;
     Some(Hit {
         t,
         point: sphere.center + normal * sphere.radius,
@@ -209,7 +240,7 @@ fn intersect_refined<D: Derivation>(
 }
 
 impl Target for f64 {
-    const POINT_ERROR: f64 = f64::EPSILON / 16.0;
+    const NORMAL_ERROR: f64 = f64::EPSILON / 16.0;
 
     fn settle(t: f64, relative_error: f64) -> Option<f64> {
         // With the half ulp of its rounding, within the 1 ulp that is promised.

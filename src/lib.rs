@@ -24,6 +24,7 @@ mod hittable;
 mod precision;
 mod ray;
 mod refine;
+mod second_try;
 mod single;
 mod sphere;
 mod vector;

@@ -1,4 +1,4 @@
-//! Where the first try is in doubt: the derivation again in pairs, and where pairs cannot tell either, exact arithmetic.
+//! Where two tries in `f64` leave a doubt: the geometric derivation in pairs, and where pairs cannot tell either, in integers.
 //!
 //! With v = u² = 2⁻¹⁰⁶, m the larger of o·o and r², and o = c - p exactly a pair, by the errors stated in
 //! [`pair`](crate::arithmetic::pair):
@@ -6,22 +6,23 @@
 //! ```text
 //! a, h, o·o     products 5 v, two additions 4 v each         |error| ≤ 13 v a,  13 v |o| |d|,  13 v o·o
 //! power         13 v o·o, difference 4 v (o·o + r²)          |error| ≤ 21 v m
-//! discriminant  h²: 31 v a o·o;  a power: 39 v a m;  difference: 8 v a m
-//!               or r² a: 18 v a m;  |o × d|²: 39 v a o·o (as |error of o × d| ≤ 9 √2 v |o| |d|);  difference: 8 v a m
-//!                                                            |error| ≤ 78 v a m
+//! discriminant  r² a: 18 v a m;  |o × d|²: 39 v a o·o (as |error of o × d| ≤ 9 √2 v |o| |d|);  difference: 8 v a m
+//!                                                            |error| ≤ 65 v a m
 //! ```
 
 use core::cmp::Ordering;
+use core::ops::Range;
 
 use glam::DVec3;
 
 use crate::arithmetic::exact::{Sum, Wide};
-use crate::arithmetic::number::Triple;
+use crate::arithmetic::number::{Number, Triple};
 use crate::arithmetic::pair::{Pair, two_difference};
 use crate::arithmetic::scaling::{exponent, scale};
 use crate::chord::{Chord, Derivation};
 use crate::float::sqrt;
-use crate::vector::Scalar;
+use crate::geometric::ClosestApproach;
+use crate::{Ray, Scalar, Sphere, Vector};
 
 /// v = u² = 2⁻¹⁰⁶.
 const V: f64 = (f64::EPSILON / 2.0) * (f64::EPSILON / 2.0);
@@ -30,7 +31,7 @@ const H_ERROR: f64 = 13.0 * V;
 /// Of the power, in m.
 const POWER_ERROR: f64 = 21.0 * V;
 /// Of the discriminant, in a m.
-const DISCRIMINANT_ERROR: f64 = 78.0 * V;
+const DISCRIMINANT_ERROR: f64 = 65.0 * V;
 /// Of a quotient or a sum besides what its terms bring with them, in itself: with the error of a, and to spare.
 const QUOTIENT_ERROR: f64 = 32.0 * V;
 
@@ -42,19 +43,65 @@ pub(crate) struct Line {
     pub(crate) radius: f64,
 }
 
+impl Line {
+    #[inline(always)]
+    pub(crate) fn new<V: Vector>(sphere: &Sphere<V>, ray: &Ray<V>) -> Self {
+        Self {
+            origin: ray.origin.to_f64(),
+            direction: ray.direction.to_f64(),
+            center: sphere.center.to_f64(),
+            radius: sphere.radius.into(),
+        }
+    }
+
+    /// c - p, exactly, unless it overflows on the way.
+    #[inline(always)]
+    pub(crate) fn o(&self) -> Triple<Pair> {
+        Triple::from(self.center).zip(Triple::from(self.origin), two_difference)
+    }
+}
+
 /// Where a line crosses a sphere.
-#[derive(Clone, Copy)]
-pub(crate) struct Crossing<S> {
-    /// The root.
-    pub(crate) t: S,
-    /// The outward unit normal.
-    pub(crate) normal: DVec3,
+pub(crate) struct Crossings<S> {
+    /// The roots, ascending.
+    pub(crate) t: [S; 2],
+    /// The outward unit normals there.
+    pub(crate) normals: [DVec3; 2],
+}
+
+impl<S: Scalar> Crossings<S> {
+    /// The geometric derivation's last step: from the foot of the closest approach, which is at `-d × (o × d) / a` from the
+    /// center, half a chord to either side.
+    #[inline(always)]
+    pub(crate) fn new<N: Number>(
+        t: [S; 2],
+        d: Triple<N>,
+        moment: Triple<N>,
+        a: N,
+        half_chord: N,
+        radius: N,
+    ) -> Self {
+        let radii = N::ONE / (a * radius);
+        let half_chord = d.map(|d| d * (half_chord * radii));
+        let foot = moment.cross(d).map(|foot| foot * radii);
+        let near = foot.zip(half_chord, |foot, half_chord| (foot - half_chord).to_f64());
+        let far = foot.zip(half_chord, |foot, half_chord| (foot + half_chord).to_f64());
+        Self { t, normals: [near.into(), far.into()] }
+    }
+
+    /// The first crossing with a finite t > 0 in the range: its root, and the normal there.
+    #[inline(always)]
+    pub(crate) fn nearest(&self, range: &Range<S>) -> Option<(S, DVec3)> {
+        let accepted = |t: &S| *t > S::ZERO && *t < S::INFINITY && range.contains(t);
+        let side = self.t.iter().position(accepted)?;
+        Some((self.t[side], self.normals[side]))
+    }
 }
 
 /// A precision that roots are rounded to.
 pub(crate) trait Target: Scalar {
     /// How far off the normal may be.
-    const POINT_ERROR: f64;
+    const NORMAL_ERROR: f64;
 
     /// The value within `relative_error` of `t` as the contract has it, or `None` where that is not yet certain.
     fn settle(t: f64, relative_error: f64) -> Option<Self>;
@@ -70,8 +117,9 @@ enum Side {
     Far,
 }
 
-/// Both crossings along the whole line, ascending, if there are any.
-pub(crate) fn crossings<D: Derivation, S: Target>(line: &Line) -> Option<[Crossing<S>; 2]> {
+/// Both crossings along the whole line, if there are any.
+#[inline(never)]
+pub(crate) fn crossings<S: Target>(line: &Line) -> Option<Crossings<S>> {
     let Line { origin, direction, center, radius } = *line;
     let finite =
         origin.is_finite() && direction.is_finite() && center.is_finite() && radius.is_finite();
@@ -79,7 +127,7 @@ pub(crate) fn crossings<D: Derivation, S: Target>(line: &Line) -> Option<[Crossi
         return None;
     }
     let exact = Exact::new(line);
-    match Scaled::new(&exact).map(|scaled| scaled.crossings::<D, S>()) {
+    match Scaled::new(&exact).map(|scaled| scaled.crossings::<S>()) {
         Some(InPairs::Miss) => None,
         Some(InPairs::Hit(crossings)) => Some(crossings),
         Some(InPairs::Doubt) | None => exact.crossings::<S>(),
@@ -89,7 +137,7 @@ pub(crate) fn crossings<D: Derivation, S: Target>(line: &Line) -> Option<[Crossi
 /// What pairs say.
 enum InPairs<S> {
     Miss,
-    Hit([Crossing<S>; 2]),
+    Hit(Crossings<S>),
     Doubt,
 }
 
@@ -127,12 +175,12 @@ impl Scaled {
         })
     }
 
-    fn crossings<D: Derivation, S: Target>(&self) -> InPairs<S> {
+    fn crossings<S: Target>(&self) -> InPairs<S> {
         let d = self.d.map(Pair::from);
         let radius = Pair::from(self.radius);
         let radius_squared = radius * radius;
         let Chord { a, h, distance_squared, power, discriminant } =
-            D::chord(self.o, d, radius_squared);
+            ClosestApproach::chord(self.o, d, radius_squared);
 
         let larger = distance_squared.hi.max(radius_squared.hi);
         let discriminant_error = DISCRIMINANT_ERROR * (a.hi * larger);
@@ -149,7 +197,7 @@ impl Scaled {
         let sum = h.abs() + half_chord;
         let sum_error =
             H_ERROR * sqrt(a.hi * distance_squared.hi) + discriminant_error / half_chord.hi;
-        if sum_error > S::POINT_ERROR * (self.radius * sqrt(a.hi)) {
+        if sum_error > S::NORMAL_ERROR * (self.radius * sqrt(a.hi)) {
             return InPairs::Doubt;
         }
 
@@ -168,33 +216,13 @@ impl Scaled {
             return InPairs::Doubt;
         };
         let t = if y < x { [y, x] } else { [x, y] };
-        let [near, far] = normals(d, self.o.cross(d), a, half_chord, radius);
-        InPairs::Hit([Crossing { t: t[0], normal: near }, Crossing { t: t[1], normal: far }])
+        InPairs::Hit(Crossings::new(t, d, self.o.cross(d), a, half_chord, radius))
     }
 }
 
 /// `magnitude` with the sign of `h`.
 fn with_sign_of(h: Pair, magnitude: Pair) -> Pair {
     if h.hi < 0.0 { -magnitude } else { magnitude }
-}
-
-/// The outward normals where the line enters and leaves: by the geometric derivation, from the foot of the closest approach,
-/// at `-d × (o × d) / a` from the center, half a chord to either side.
-fn normals(
-    d: Triple<Pair>,
-    moment: Triple<Pair>,
-    a: Pair,
-    half_chord: Pair,
-    radius: Pair,
-) -> [DVec3; 2] {
-    let foot = d.cross(moment);
-    let scale = a * radius;
-    let normal = |half_chord: Pair| {
-        DVec3::from(
-            d.zip(foot, |d, foot| (half_chord * d - foot) / scale).map(|coordinate| coordinate.hi),
-        )
-    };
-    [normal(-half_chord), normal(half_chord)]
 }
 
 /// The setting, exactly.
@@ -209,17 +237,19 @@ struct Exact {
 
 impl Exact {
     fn new(line: &Line) -> Self {
-        let (center, origin) = (Triple::from(line.center), Triple::from(line.origin));
-        let difference = center.zip(origin, two_difference);
+        let difference = line.o();
         let is_pair = |pair: Pair| pair.hi.is_finite() && pair.lo.is_finite();
         let in_pairs = is_pair(difference.x) && is_pair(difference.y) && is_pair(difference.z);
         // Where a difference overflows, or a step on the way to it, its two terms are an exact sum still.
-        let o =
-            if in_pairs { difference } else { center.zip(origin, |c, p| Pair { hi: c, lo: -p }) };
+        let o = if in_pairs {
+            difference
+        } else {
+            Triple::from(line.center).zip(line.origin.into(), |c, p| Pair { hi: c, lo: -p })
+        };
         Self { o, in_pairs, d: Triple::from(line.direction), radius: line.radius }
     }
 
-    fn crossings<S: Target>(&self) -> Option<[Crossing<S>; 2]> {
+    fn crossings<S: Target>(&self) -> Option<Crossings<S>> {
         let discriminant = self.discriminant();
         if discriminant.is_negative() {
             return None;
@@ -241,11 +271,8 @@ impl Exact {
         };
         let settle =
             |root: Wide, side| S::settle_exactly(root.to_f64(), |m| self.compare_root(side, m));
-        let [near, far] = self.normals(half_chord);
-        Some([
-            Crossing { t: settle(roots[0], Side::Near), normal: near },
-            Crossing { t: settle(roots[1], Side::Far), normal: far },
-        ])
+        let t = [settle(roots[0], Side::Near), settle(roots[1], Side::Far)];
+        Some(self.crossings_at(t, half_chord))
     }
 
     /// The six terms of o with their places: the coordinates are the sums of each two.
@@ -344,13 +371,13 @@ impl Exact {
         }
     }
 
-    /// The outward unit normals at both crossings.
-    fn normals(&self, half_chord: Wide) -> [DVec3; 2] {
+    /// The crossings at those roots.
+    fn crossings_at<S: Target>(&self, t: [S; 2], half_chord: Wide) -> Crossings<S> {
         let direction_exponent = exponent(self.d.x.abs().max(self.d.y.abs()).max(self.d.z.abs()));
         let d = self.d.map(|d| scale(d, -direction_exponent));
         if self.radius == 0.0 {
-            // There is none: back along the ray.
-            return [-DVec3::from(d).normalize(); 2];
+            // There is no normal: back along the ray.
+            return Crossings { t, normals: [-DVec3::from(d).normalize(); 2] };
         }
         // In units of the radius and of the direction's length, which bound half the chord and the moment.
         let radius_exponent = exponent(self.radius);
@@ -363,12 +390,7 @@ impl Exact {
             sum.value().scaled(unit)
         });
         let d = d.map(Pair::from);
-        normals(
-            d,
-            Triple { x, y, z },
-            d.dot(d),
-            half_chord.scaled(unit),
-            Pair::from(scale(self.radius, -radius_exponent)),
-        )
+        let radius = Pair::from(scale(self.radius, -radius_exponent));
+        Crossings::new(t, d, Triple { x, y, z }, d.dot(d), half_chord.scaled(unit), radius)
     }
 }

@@ -1,15 +1,17 @@
 //! `f32`: computed in `f64`, where the inputs and most of their products are exact, and rounded once.
 
+use core::cmp::Ordering;
 use core::ops::Range;
 
 use glam::{DVec3, Vec3};
 
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::rounding::{self, rounds_safely};
+use crate::arithmetic::rounding::{round_to_f32, round_to_f32_exactly, rounds_safely};
 use crate::chord::{Chord, Derivation};
 use crate::first_try::{BothRoots, FirstTry, RELATIVE_ERROR, both_roots, nearest_ahead};
 use crate::precision::Precision;
-use crate::refine::{self, Crossing, Line, Target};
+use crate::refine::{self, Crossings, Line, Target};
+use crate::second_try::{Estimate, SecondTry, second_try};
 use crate::{Hit, Ray, Sphere};
 
 /// The first try's error in units of the last of 53 places, at most its relative error over 2⁻⁵³.
@@ -64,7 +66,7 @@ impl Precision for Vec3 {
             }
             FirstTry::Doubt => {}
         }
-        intersect_refined::<D>(sphere, ray, range)
+        intersect_refined(sphere, ray, range)
     }
 
     #[inline(always)]
@@ -83,7 +85,7 @@ impl Precision for Vec3 {
             }
             _ => {}
         }
-        roots_refined::<D>(sphere, ray)
+        roots_refined(sphere, ray)
     }
 }
 
@@ -119,31 +121,46 @@ fn clearance(center: Vec3, radius: f32) -> f32 {
     (center.abs().max_element() * FOUR_ULPS + radius * FOUR_ULPS).max(4.0 * f32::from_bits(1))
 }
 
-fn line(sphere: &Sphere, ray: &Ray) -> Line {
-    Line {
-        origin: ray.origin.as_dvec3(),
-        direction: ray.direction.as_dvec3(),
-        center: sphere.center.as_dvec3(),
-        radius: f64::from(sphere.radius),
+/// Both crossings where the first try left a doubt.
+#[inline(always)]
+fn crossings(sphere: &Sphere, ray: &Ray) -> Option<Crossings<f32>> {
+    let line = Line::new(sphere, ray);
+    match second_try(line.o(), line.direction.into(), line.radius) {
+        SecondTry::Miss => None,
+        SecondTry::Hit(estimate) => match settle(&estimate, &line) {
+            Some(crossings) => Some(crossings),
+            None => refine::crossings(&line),
+        },
+        SecondTry::Doubt => refine::crossings(&line),
     }
+}
+
+/// The crossings of the second try, where their errors allow.
+#[inline(always)]
+fn settle(estimate: &Estimate, line: &Line) -> Option<Crossings<f32>> {
+    let Estimate { a, moment, half_chord, error, roots } = *estimate;
+    let bound = f32::NORMAL_ERROR * line.radius;
+    if error * error > bound * bound * a {
+        return None;
+    }
+    let [near, far] =
+        roots.map(|root| round_to_f32(root.numerator / root.denominator, root.relative_error));
+    let t = [near?, far?];
+    Some(Crossings::new(t, line.direction.into(), moment, a, half_chord, line.radius))
 }
 
 /// Both roots where the first try left a doubt.
 #[cold]
 #[inline(never)]
-fn roots_refined<D: Derivation>(sphere: &Sphere, ray: &Ray) -> Option<[f32; 2]> {
-    refine::crossings::<D, f32>(&line(sphere, ray))
-        .map(|crossings| crossings.map(|crossing| crossing.t))
+fn roots_refined(sphere: &Sphere, ray: &Ray) -> Option<[f32; 2]> {
+    crossings(sphere, ray).map(|crossings| crossings.t)
 }
 
 /// The nearest hit where the first try left a doubt.
 #[cold]
 #[inline(never)]
-fn intersect_refined<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
-    let crossings = refine::crossings::<D, f32>(&line(sphere, ray))?;
-    let Crossing { t, normal } = crossings.into_iter().find(|crossing| {
-        crossing.t > 0.0 && crossing.t < f32::INFINITY && range.contains(&crossing.t)
-    })?;
+fn intersect_refined(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
+    let (t, normal) = crossings(sphere, ray)?.nearest(&range)?;
     let offset = normal * f64::from(sphere.radius);
     Some(Hit {
         t,
@@ -154,13 +171,13 @@ fn intersect_refined<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32
 }
 
 impl Target for f32 {
-    const POINT_ERROR: f64 = f32::EPSILON as f64 / 64.0;
+    const NORMAL_ERROR: f64 = f32::EPSILON as f64 / 64.0;
 
     fn settle(t: f64, relative_error: f64) -> Option<f32> {
-        rounding::round_to_f32(t, relative_error)
+        round_to_f32(t, relative_error)
     }
 
-    fn settle_exactly(t: f64, compare: impl FnOnce(f64) -> core::cmp::Ordering) -> f32 {
-        rounding::round_to_f32_exactly(t, compare)
+    fn settle_exactly(t: f64, compare: impl FnOnce(f64) -> Ordering) -> f32 {
+        round_to_f32_exactly(t, compare)
     }
 }

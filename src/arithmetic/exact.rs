@@ -153,7 +153,7 @@ pub(crate) struct Wide {
 }
 
 impl Wide {
-    const ZERO: Self = Self { value: Pair::ZERO, exponent: 0 };
+    const ZERO: Self = Self { value: Pair { hi: 0.0, lo: 0.0 }, exponent: 0 };
 
     pub(crate) fn is_negative(self) -> bool {
         self.value.hi < 0.0

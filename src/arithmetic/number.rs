@@ -1,16 +1,37 @@
 //! What a derivation may do with a number, so that it is written once and carried out in `f64` or in pairs.
 
-use core::ops::{Add, Mul, Sub};
+use core::ops::{Add, Div, Mul, Sub};
 
 use glam::DVec3;
 
 use super::pair::Pair;
 
 /// A number that a derivation can be carried out in.
-pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {}
+pub trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// 1.
+    const ONE: Self;
 
-impl Number for f64 {}
-impl Number for Pair {}
+    /// Rounded to an `f64`.
+    fn to_f64(self) -> f64;
+}
+
+impl Number for f64 {
+    const ONE: Self = 1.0;
+
+    fn to_f64(self) -> f64 {
+        self
+    }
+}
+
+impl Number for Pair {
+    const ONE: Self = Self { hi: 1.0, lo: 0.0 };
+
+    fn to_f64(self) -> f64 {
+        self.hi
+    }
+}
 
 /// A vector of such numbers.
 #[derive(Clone, Copy, Debug)]

@@ -79,8 +79,6 @@ pub(crate) fn compensated_dot(a: Triple<f64>, b: Triple<f64>) -> Pair {
 }
 
 impl Pair {
-    pub(crate) const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
-
     #[inline(always)]
     pub(crate) fn abs(self) -> Self {
         if self.hi < 0.0 { -self } else { self }
