@@ -5,7 +5,7 @@
 //! is neither overflow nor underflow here, and no allocation.
 
 use core::cmp::Ordering;
-use core::ops::{Add, Div, Neg};
+use core::ops::{Add, Div, Neg, Range};
 
 use super::pair::{Pair, two_sum};
 use super::scaling::{exponent, scale};
@@ -21,6 +21,8 @@ const DIGITS: usize = 135 + 128 + 2;
 pub(crate) struct Sum {
     /// Least significant first, each with a sign of its own and room for 2³⁰ additions before a carry is due.
     digits: [i64; DIGITS],
+    /// Those that may be other than zero.
+    used: Range<usize>,
 }
 
 /// A finite `f64` as an integer below 2⁵³ and the exponent of its unit.
@@ -49,7 +51,7 @@ fn leading_pair(integer: u128) -> Pair {
 
 impl Sum {
     pub(crate) const fn zero() -> Self {
-        Self { digits: [0; DIGITS] }
+        Self { digits: [0; DIGITS], used: DIGITS..0 }
     }
 
     /// Adds `times` the product of four finite numbers. |`times`| is 1 or 2.
@@ -81,6 +83,8 @@ impl Sum {
             }
             product[i + 4] = carry;
         }
+        // Nine digits of the product, and two more for what the sum of many carries.
+        self.used = self.used.start.min(digit)..self.used.end.max((digit + 11).min(DIGITS));
         let mut spill = 0;
         for (target, part) in self.digits[digit..].iter_mut().zip(product) {
             let shifted = (part << shift) | spill;
@@ -94,10 +98,10 @@ impl Sum {
         }
     }
 
-    /// Carries, so that every digit but the last is in 0..2³², and gives the carry out of the last.
+    /// Carries, so that every digit is in 0..2³², and gives the carry out of the last of those used: negative if the sum is.
     fn carry(&mut self) -> i64 {
         let mut carry = 0;
-        for digit in &mut self.digits {
+        for digit in self.digits.get_mut(self.used.clone()).into_iter().flatten() {
             let sum = *digit + carry;
             *digit = sum & 0xffff_ffff;
             carry = sum >> 32;
@@ -105,19 +109,25 @@ impl Sum {
         carry
     }
 
+    /// The digits used.
+    fn used(&self) -> &[i64] {
+        self.digits.get(self.used.clone()).unwrap_or(&[])
+    }
+
     /// The value, rounded to a pair with a relative error below 2⁻⁹⁶, and its exponent.
     pub(crate) fn value(mut self) -> Wide {
         let negative = self.carry() < 0;
         if negative {
-            for digit in &mut self.digits {
+            for digit in self.digits.get_mut(self.used.clone()).into_iter().flatten() {
                 *digit = -*digit;
             }
             // The digits hold the number modulo 2³²ⁿ, and so does their negative.
             self.carry();
         }
-        let Some(top) = self.digits.iter().rposition(|digit| *digit != 0) else {
+        let Some(top) = self.used().iter().rposition(|digit| *digit != 0) else {
             return Wide::ZERO;
         };
+        let top = self.used.start + top;
         // Four digits: at least 97 bits.
         let leading = (0..4).fold(0, |leading, below| {
             let digit = top.checked_sub(below).map_or(0, |index| self.digits[index]);
@@ -139,7 +149,7 @@ impl Sum {
         match self.carry() {
             carry if carry < 0 => Ordering::Less,
             carry if carry > 0 => Ordering::Greater,
-            _ if self.digits.iter().any(|digit| *digit != 0) => Ordering::Greater,
+            _ if self.used().iter().any(|digit| *digit != 0) => Ordering::Greater,
             _ => Ordering::Equal,
         }
     }
