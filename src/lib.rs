@@ -1,4 +1,48 @@
-//! Eye rays and spheres.
+//! The first step of every ray tracer: make the eye ray, meet the sphere.
+//!
+//! The distance to a sphere that this library returns is the exact root, rounded once to the nearest `f32`. Whether a ray hits
+//! or misses is never wrong. Both are promised for all finite inputs, on every machine, at little more than the price of the
+//! textbook's formula; [`Sphere`] states the contract in full.
+//!
+//! ```
+//! use eyeray::{Camera, Hittable, Sphere};
+//! use glam::{Vec3, vec2, vec3};
+//!
+//! # fn main() -> Result<(), eyeray::CameraError> {
+//! // A camera at z = 5 that looks at the world's origin, 90 degrees high, twice as wide.
+//! let eye = vec3(0.0, 0.0, 5.0);
+//! let camera = Camera::perspective_fov(eye, Vec3::ZERO, Vec3::Y, std::f32::consts::FRAC_PI_2, 2.0)?;
+//!
+//! // The eye ray through the middle of an image of 640 by 320 pixels.
+//! let ray = camera.pixel_ray(vec2(320.0, 160.0), 640, 320);
+//!
+//! // Any t > 0 along it, in lengths of its direction.
+//! let sphere = Sphere::new(Vec3::ZERO, 1.0);
+//! let hit = sphere.intersect(&ray, 0.0..f32::INFINITY);
+//! assert_eq!(hit.map(|hit| (hit.t, hit.normal)), Some((4.0, Vec3::Z)));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # What is here
+//!
+//! - [`Camera`], orthographic or perspective, makes [`Ray`]s from points of its [`ViewRect`], and projects points back.
+//! - [`Sphere`] is met by either of two derivations, [`Algebraic`] and [`Geometric`], which agree bit for bit in `f32`.
+//! - [`Hittable`] is what a ray can meet; a [`Hit`] has the distance, the point and the normal, and
+//!   [spawns](Hit::spawn) rays that leave the surface for good.
+//! - [`nearest`] says which of many objects is met first, and `Spheres` does so for many spheres at a time.
+//!
+//! All of it is for glam's vectors, [`Vec3`](glam::Vec3) by default and [`DVec3`](glam::DVec3) for twice the precision: see
+//! [`Vector`].
+//!
+//! The formulas are those of S. Marschner's CS4620 lecture 6, *Ray Tracing Basics*, generalized to any center, radius and
+//! length of direction. There are no materials, no triangles, no colors and no acceleration structures here.
+//!
+//! # Features
+//!
+//! - `std`, the default: square roots from the hardware, and `alloc`.
+//! - `libm`: for `no_std`, square roots from the [libm](https://docs.rs/libm) crate. One of `std` and `libm` is needed.
+//! - `alloc`: `Spheres`, and [`Hittable`] for boxes.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
@@ -40,3 +84,8 @@ pub use ray::Ray;
 pub use sphere::Sphere;
 pub use vector::{Scalar, Vector};
 pub use view_rect::ViewRect;
+
+/// The examples of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
