@@ -5,4 +5,8 @@
     reason = "shared by several tests, each of which takes what it needs"
 )]
 
+pub mod dyadic;
 pub mod families;
+pub mod float;
+pub mod oracle;
+pub mod reproduce;

@@ -1,0 +1,232 @@
+//! The exact answer for any ray and sphere, in integers of any size.
+//!
+//! With p the origin, d the direction, c the center and r the radius, and o = c - p, the line meets the sphere where
+//! |t d - o| = r: at t = (h ± √N) / a with a = d·d, h = d·o and N = h² - a (o·o - r²). All of a, h and N are exact here,
+//! so the sign of N decides whether there are roots, and whether a root is above or below a given number is decided by
+//! integers too: t > x where ±√N > a x - h, that is where a square is larger than another.
+
+use std::cmp::Ordering;
+use std::marker::PhantomData;
+
+use eyeray::{Ray, Sphere, Vector};
+use glam::{DVec3, Vec3};
+
+use super::dyadic::Dyadic;
+use super::float::Float;
+
+/// How many bits of a root are kept where its exact value is not needed.
+const BITS: i64 = 192;
+
+/// A vector whose coordinates the oracle can read.
+pub trait Coordinates: Vector<Scalar: Float> {
+    /// Its coordinates.
+    fn coordinates(self) -> [Self::Scalar; 3];
+}
+
+impl Coordinates for Vec3 {
+    fn coordinates(self) -> [f32; 3] {
+        self.to_array()
+    }
+}
+
+impl Coordinates for DVec3 {
+    fn coordinates(self) -> [f64; 3] {
+        self.to_array()
+    }
+}
+
+/// A vector of exact numbers.
+type Exact = [Dyadic; 3];
+
+/// The exact vector, if it is finite.
+fn exactly<V: Coordinates>(vector: V) -> Option<Exact> {
+    let coordinates = vector.coordinates().map(Into::<f64>::into);
+    coordinates
+        .iter()
+        .all(|coordinate| coordinate.is_finite())
+        .then(|| coordinates.map(Dyadic::exactly))
+}
+
+fn dot(v: &Exact, w: &Exact) -> Dyadic {
+    let [x, y, z] = [0, 1, 2].map(|i| &v[i] * &w[i]);
+    &(&x + &y) + &z
+}
+
+fn difference(v: &Exact, w: &Exact) -> Exact {
+    [0, 1, 2].map(|i| &v[i] - &w[i])
+}
+
+/// The side of the sphere's surface that a point is on: `Less` is inside. `None` where a value is not finite.
+pub fn side<V: Coordinates>(sphere: &Sphere<V>, point: V) -> Option<Ordering> {
+    let radius: f64 = sphere.radius.into();
+    if !radius.is_finite() {
+        return None;
+    }
+    let from_center = difference(&exactly(point)?, &exactly(sphere.center)?);
+    let radius = Dyadic::exactly(radius);
+    Some(dot(&from_center, &from_center).cmp(&(&radius * &radius)))
+}
+
+/// Where a line meets a sphere, exactly.
+#[derive(Debug)]
+pub struct Truth<V> {
+    /// The nearer root along the line and the farther one. They are equal where the line is tangent.
+    pub roots: [Root; 2],
+    direction: Exact,
+    to_center: Exact,
+    center: Exact,
+    radius: Dyadic,
+    precision: PhantomData<V>,
+}
+
+impl<V: Coordinates> Truth<V> {
+    /// Where the whole line of the ray meets the sphere, or `None`: where it does not, where a value is not finite,
+    /// where the direction is zero, where the radius is negative.
+    pub fn new(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<Self> {
+        let origin = exactly(ray.origin)?;
+        let direction = exactly(ray.direction)?;
+        let center = exactly(sphere.center)?;
+        let radius: f64 = sphere.radius.into();
+        if !radius.is_finite() || radius < 0.0 || direction.iter().all(Dyadic::is_zero) {
+            return None;
+        }
+        let radius = Dyadic::exactly(radius);
+
+        let to_center = difference(&center, &origin);
+        let a = dot(&direction, &direction);
+        let h = dot(&direction, &to_center);
+        let squared_distance = dot(&to_center, &to_center);
+        let c = &squared_distance - &(&radius * &radius);
+        let discriminant = &(&h * &h) - &(&a * &c);
+        if discriminant.is_negative() {
+            return None;
+        }
+
+        // From afar, the point on the surface is a small difference: it takes more bits of the root.
+        let cancelled = if squared_distance.is_zero() || radius.is_zero() {
+            0
+        } else {
+            (squared_distance.magnitude() / 2 - radius.magnitude()).max(0)
+        };
+        let roots = Root::both(&a, &h, &c, &discriminant, BITS + cancelled);
+        Some(Self { roots, direction, to_center, center, radius, precision: PhantomData })
+    }
+
+    /// From the center to the point of the surface at a root.
+    fn from_center(&self, root: usize) -> Exact {
+        if self.radius.is_zero() {
+            return [Dyadic::ZERO; 3];
+        }
+        let t = &self.roots[root].cut_off;
+        [0, 1, 2].map(|i| &(&self.direction[i] * t) - &self.to_center[i])
+    }
+
+    /// The largest error of a coordinate of a point that was computed for a root, in ulps of the largest coordinate
+    /// along that axis of any point of the sphere: of |center| + radius.
+    pub fn point_error(&self, root: usize, point: V) -> f64 {
+        let from_center = self.from_center(root);
+        let errors = [0, 1, 2].map(|i| {
+            let largest = &self.center[i].clone().abs() + &self.radius;
+            let exact = &self.center[i] + &from_center[i];
+            point.coordinates()[i].error(&exact, V::Scalar::ulp(&largest))
+        });
+        errors.into_iter().fold(0.0, f64::max)
+    }
+
+    /// The largest error of a coordinate of a unit normal that was computed for a root, in ulps of 1. A sphere of
+    /// radius 0 has for its normal the unit vector back along the ray.
+    pub fn normal_error(&self, root: usize, normal: V) -> f64 {
+        let (vector, length) = if self.radius.is_zero() {
+            let backwards = [0, 1, 2].map(|i| -&self.direction[i]);
+            let length = dot(&backwards, &backwards).square_root(BITS);
+            (backwards, length)
+        } else {
+            (self.from_center(root), self.radius.clone())
+        };
+        let errors = [0, 1, 2].map(|i| {
+            let exact = vector[i].divided_by(&length, BITS);
+            normal.coordinates()[i].error(&exact, 1 - i64::from(V::Scalar::DIGITS))
+        });
+        errors.into_iter().fold(0.0, f64::max)
+    }
+}
+
+/// One root (h ± √N) / a.
+#[derive(Clone, Debug)]
+pub struct Root {
+    a: Dyadic,
+    h: Dyadic,
+    discriminant: Dyadic,
+    /// The sign of the square root.
+    sign: Ordering,
+    /// The root, cut off after a few hundred bits.
+    cut_off: Dyadic,
+}
+
+impl Root {
+    /// Both roots, ascending, cut off after at least `bits` bits.
+    fn both(a: &Dyadic, h: &Dyadic, c: &Dyadic, discriminant: &Dyadic, bits: i64) -> [Self; 2] {
+        // Where h and the square root have the same sign nothing cancels; the other root follows from their product.
+        let square_root = discriminant.square_root(bits);
+        let h_with_square_root = if h.is_negative() { h - &square_root } else { h + &square_root };
+        let (larger, smaller) = if h_with_square_root.is_zero() {
+            (Dyadic::ZERO, Dyadic::ZERO)
+        } else {
+            (h_with_square_root.divided_by(a, bits), c.divided_by(&h_with_square_root, bits))
+        };
+        let (first, second) = if h.is_negative() { (larger, smaller) } else { (smaller, larger) };
+        [(Ordering::Less, first), (Ordering::Greater, second)].map(|(sign, cut_off)| Self {
+            a: a.clone(),
+            h: h.clone(),
+            discriminant: discriminant.clone(),
+            sign,
+            cut_off,
+        })
+    }
+
+    /// How the root compares with a number, exactly.
+    pub fn compare(&self, number: &Dyadic) -> Ordering {
+        // t and x compare as ±√N and a x - h do.
+        let other = &(&self.a * number) - &self.h;
+        let sign = if self.discriminant.is_zero() { Ordering::Equal } else { self.sign };
+        match (sign, other.sign()) {
+            (Ordering::Greater, Ordering::Greater) => self.discriminant.cmp(&(&other * &other)),
+            (Ordering::Less, Ordering::Less) => (&other * &other).cmp(&self.discriminant),
+            (sign, other) => sign.cmp(&other),
+        }
+    }
+
+    /// The value of the format nearest to the root, of two equally near ones the even one. A root that is no smaller
+    /// than the largest finite value and half an ulp is infinite; a zero has the sign of the root.
+    pub fn nearest<F: Float>(&self) -> F {
+        // The root cut off says where to look. What it is is decided by exact comparison with the numbers midway to
+        // its neighbors; a number midway belongs to the even one.
+        let mut ordinal = F::ordinal_towards_zero(&self.cut_off);
+        let belongs_above = |ordinal: i64| {
+            let twice_midway = &F::number(ordinal) + &F::number(ordinal + 1);
+            match self.compare(&twice_midway.scaled(-1)) {
+                Ordering::Less => false,
+                Ordering::Equal => ordinal % 2 != 0,
+                Ordering::Greater => true,
+            }
+        };
+        while ordinal < F::INFINITE && belongs_above(ordinal) {
+            ordinal += 1;
+        }
+        while ordinal > -F::INFINITE && !belongs_above(ordinal - 1) {
+            ordinal -= 1;
+        }
+        let value = F::from_ordinal(ordinal);
+        if ordinal == 0 && self.compare(&Dyadic::ZERO).is_lt() { -value } else { value }
+    }
+
+    /// How far a computed value is from the root, in ulps of the root.
+    pub fn error<F: Float>(&self, computed: F) -> f64 {
+        computed.error(&self.cut_off, F::ulp(&self.cut_off))
+    }
+
+    /// Whether the root is exactly 0, which has no sign to be kept.
+    pub fn is_zero(&self) -> bool {
+        self.compare(&Dyadic::ZERO).is_eq()
+    }
+}
