@@ -72,7 +72,7 @@ fn check<V: Contract>() {
         Ok(cases) => cases.parse().expect("EYERAY_CASES is the number of cases of each family"),
         Err(_) => CASES_PER_SEED,
     };
-    let seeds = cases / CASES_PER_SEED;
+    let seeds = u64::div_ceil(cases, CASES_PER_SEED);
     println!("{}", Tally::HEADER);
     let mut total = Tally::default();
     for family in FAMILIES {
