@@ -32,7 +32,7 @@ impl Dyadic {
         // A short integer keeps what is computed from it short.
         let zeros = if magnitude == 0 { 0 } else { magnitude.trailing_zeros() };
         let integer = BigInt::from(magnitude >> zeros);
-        let exponent = exponent.cast_signed() - 1075 + i64::from(zeros);
+        let exponent = signed(exponent) - 1075 + i64::from(zeros);
         Self { integer: if float < 0.0 { -integer } else { integer }, exponent }
     }
 
@@ -47,7 +47,7 @@ impl Dyadic {
         let mut exponent = exponent.clamp(-3000, 3000);
         while exponent != 0 {
             let step = exponent.clamp(-1000, 1000);
-            value *= f64::from_bits((1023 + step).cast_unsigned() << 52);
+            value *= f64::from_bits(1023_u64.wrapping_add_signed(step) << 52);
             exponent -= step;
         }
         if self.is_negative() { -value } else { value }
@@ -55,7 +55,7 @@ impl Dyadic {
 
     /// The first `digits` bits of the magnitude, at most 64, as an integer and the exponent of its power of two.
     pub fn leading(&self, digits: u32) -> (u64, i64) {
-        let shift = self.integer.bits().cast_signed() - i64::from(digits);
+        let shift = signed(self.integer.bits()) - i64::from(digits);
         let magnitude = self.integer.magnitude();
         let integer = if shift > 0 { magnitude >> shift } else { magnitude << -shift };
         (integer.try_into().expect("at most 64 bits were kept"), self.exponent + shift)
@@ -64,7 +64,7 @@ impl Dyadic {
     /// The exponent of the largest power of two that is no larger in magnitude. Not for 0.
     pub fn magnitude(&self) -> i64 {
         assert!(!self.is_zero(), "0 has no magnitude");
-        self.integer.bits().cast_signed() - 1 + self.exponent
+        signed(self.integer.bits()) - 1 + self.exponent
     }
 
     pub fn is_zero(&self) -> bool {
@@ -96,7 +96,7 @@ impl Dyadic {
 
     /// The square root cut off after at least `bits` bits, of a number that is not negative.
     pub fn square_root(&self, bits: i64) -> Self {
-        let missing = 2 * bits - self.integer.bits().cast_signed();
+        let missing = 2 * bits - signed(self.integer.bits());
         let mut shift = missing.max(0);
         shift += (self.exponent - shift) & 1;
         Self { integer: (&self.integer << shift).sqrt(), exponent: (self.exponent - shift) / 2 }
@@ -104,8 +104,7 @@ impl Dyadic {
 
     /// The quotient cut off after at least `bits` bits. `divisor` is not 0.
     pub fn divided_by(&self, divisor: &Self, bits: i64) -> Self {
-        let missing =
-            bits + 1 + divisor.integer.bits().cast_signed() - self.integer.bits().cast_signed();
+        let missing = bits + 1 + signed(divisor.integer.bits()) - signed(self.integer.bits());
         let shift = missing.max(0);
         Self {
             integer: (&self.integer << shift) / &divisor.integer,
@@ -122,6 +121,11 @@ impl Dyadic {
             exponent,
         )
     }
+}
+
+/// A count of bits or an exponent, as a number that can be subtracted from.
+fn signed(count: u64) -> i64 {
+    count.try_into().expect("no integer here is that long")
 }
 
 impl Neg for &Dyadic {

@@ -85,7 +85,13 @@ pub const FAMILIES: &[Family] = &[
         tangent_neighbor,
         "an exact tangent with one coordinate an ulp off"
     ),
+    family!(
+        "near tangent",
+        near_tangent,
+        "an exact tangent moved by 1e-30 to 1e-6 of the radius; from 1e-290"
+    ),
     family!("exact tie", exact_tie, "a root exactly midway between two floats"),
+    family!("near tie", near_tie, "a root closer to midway than any fixed precision tells"),
     family!(
         "point sphere",
         point_sphere,
@@ -486,6 +492,15 @@ fn nudged<V: Precision>(rng: &mut Rng, (mut ray, mut sphere): Case<V>) -> Case<V
     (ray, sphere)
 }
 
+/// A tangent to a sphere at the world's origin, moved by far less than an ulp of its radius.
+fn near_tangent<V: Precision>(rng: &mut Rng) -> Case<V> {
+    let tangent = integer_tangent::<V>(rng);
+    let mut center = DVec3::ZERO;
+    center[rng.index()] =
+        rng.sign() * tangent.radius * rng.magnitude(V::either(1e-30, 1e-290), 1e-6);
+    Scene { origin: tangent.origin - tangent.center, center, ..tangent }.rounded()
+}
+
 fn tangent_neighbor<V: Precision>(rng: &mut Rng) -> Case<V> {
     let case = exact_tangent(rng);
     nudged(rng, case)
@@ -503,8 +518,9 @@ fn exactly_on_the_surface<V: Precision>(rng: &mut Rng) -> Case<V> {
 }
 
 /// The half-chord and the closest approach are the legs of a Pythagorean triangle whose hypotenuse is the radius, so
-/// the roots are integers, and of one bit more than a mantissa has.
-fn exact_tie<V: Precision>(rng: &mut Rng) -> Case<V> {
+/// the roots are integers, and of one bit more than a mantissa has. Off the plane of that triangle, by `off_plane`, the
+/// center moves the roots from there by about half the square of that.
+fn tie<V: Precision>(rng: &mut Rng, off_plane: f64) -> Case<V> {
     let n = rng.integer(1, 19);
     let m = rng.integer(n + 1, 20);
     let (half_chord, closest, radius) = (m * m - n * n, 2 * m * n, m * m + n * n);
@@ -518,18 +534,27 @@ fn exact_tie<V: Precision>(rng: &mut Rng) -> Case<V> {
     let origin = to_center - center;
 
     let sideways = rng.integer(-1000, 1000);
-    let vector = |x, y, z| DVec3::new(integral(x), integral(y), integral(z));
+    let vector = |x, y, z| DVec3::new(integral(x), integral(y), z);
     let rotation = rng.index();
     let rotated = |v: DVec3| [v, DVec3::new(v.z, v.x, v.y), DVec3::new(v.y, v.z, v.x)][rotation];
     let sign = rng.sign();
     Scene {
-        origin: rotated(vector(-origin, sideways - closest, 7)) * sign,
+        origin: rotated(vector(-origin, sideways - closest, 0.0)) * sign,
         direction: rotated(DVec3::X) * sign * rng.power_of_two(-10, 10),
-        center: rotated(vector(center, sideways, 7)) * sign,
+        center: rotated(vector(center, sideways, off_plane)) * sign,
         radius: integral(radius),
     }
     .scaled(rng.power_of_two(-20, 20))
     .rounded()
+}
+
+fn exact_tie<V: Precision>(rng: &mut Rng) -> Case<V> {
+    tie(rng, 0.0)
+}
+
+fn near_tie<V: Precision>(rng: &mut Rng) -> Case<V> {
+    let off_plane = rng.magnitude(V::either(1e-18, 1e-150), 1e-2);
+    tie(rng, off_plane)
 }
 
 fn point_sphere<V: Precision>(rng: &mut Rng) -> Case<V> {

@@ -48,7 +48,7 @@ pub trait Float: Scalar {
             return 0;
         }
         let (integer, exponent) = number.leading(Self::DIGITS);
-        let integer = integer.cast_signed();
+        let integer = i64::try_from(integer).expect("a mantissa has at most 53 bits");
         let above_least = exponent - Self::LEAST_EXPONENT;
         let magnitude = if above_least > Self::GREATEST_EXPONENT - Self::LEAST_EXPONENT {
             Self::INFINITE

@@ -113,7 +113,7 @@ impl<V: Coordinates> Truth<V> {
     }
 
     /// From the center to the point of the surface at a root.
-    fn from_center(&self, root: usize) -> Exact {
+    fn center_to_point(&self, root: usize) -> Exact {
         if self.radius.is_zero() {
             return [Dyadic::ZERO; 3];
         }
@@ -124,7 +124,7 @@ impl<V: Coordinates> Truth<V> {
     /// The largest error of a coordinate of a point that was computed for a root, in ulps of the largest coordinate
     /// along that axis of any point of the sphere: of |center| + radius.
     pub fn point_error(&self, root: usize, point: V) -> f64 {
-        let from_center = self.from_center(root);
+        let from_center = self.center_to_point(root);
         let errors = [0, 1, 2].map(|i| {
             let largest = &self.center[i].clone().abs() + &self.radius;
             let exact = &self.center[i] + &from_center[i];
@@ -141,7 +141,7 @@ impl<V: Coordinates> Truth<V> {
             let length = dot(&backwards, &backwards).square_root(BITS);
             (backwards, length)
         } else {
-            (self.from_center(root), self.radius.clone())
+            (self.center_to_point(root), self.radius.clone())
         };
         let errors = [0, 1, 2].map(|i| {
             let exact = vector[i].divided_by(&length, BITS);
