@@ -66,6 +66,38 @@ fn double_precision() {
     check::<DVec3>();
 }
 
+/// Cases that long runs have found, each with what had gone wrong.
+#[test]
+fn found_by_long_runs() {
+    let bits = |bits: [u32; 3]| Vec3::from_array(bits.map(f32::from_bits));
+    let cases = [
+        (
+            "a root beyond a tie by 1e-31 of itself, taken for the tie",
+            Ray::new(
+                bits([0x54b4_71e3, 0xcd8d_4000, 0x8000_0000]),
+                bits([0xbc00_0000, 0x8000_0000, 0x8000_0000]),
+            ),
+            Sphere::new(bits([0xd4b4_71dd, 0xcde8_4000, 0xb1ca_7759]), f32::from_bits(0x4d36_8000)),
+        ),
+        (
+            "a positive root that underflows, returned as a negative zero",
+            Ray::new(bits([0x8000_0000, 0x9f14_8359, 0xb857_2ebd]), bits([0, 0, 0x52fa_a2de])),
+            Sphere::new(Vec3::ZERO, f32::from_bits(0x3857_2ebd)),
+        ),
+    ];
+    for (what, ray, sphere) in cases {
+        let mut case = Examination::new(ray, sphere);
+        case.roots();
+        case.ranges();
+        assert!(
+            case.failure.is_none(),
+            "{what}: {}\n{}",
+            case.failure.unwrap_or_default(),
+            source(&ray, &sphere)
+        );
+    }
+}
+
 /// Tries every family, prints a row for each, and fails with the first case of each that broke the contract.
 fn check<V: Contract>() {
     let cases = match std::env::var("EYERAY_CASES") {
