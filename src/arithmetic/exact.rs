@@ -51,7 +51,7 @@ fn leading_pair(integer: u128) -> Pair {
 
 impl Sum {
     pub(crate) const fn zero() -> Self {
-        Self { digits: [0; DIGITS], used: DIGITS..0 }
+        Self { digits: [0; DIGITS], used: Range { start: DIGITS, end: 0 } }
     }
 
     /// Adds `times` the product of four finite numbers. |`times`| is 1 or 2.

@@ -22,13 +22,16 @@ pub(crate) fn rounds_safely<const MARGIN: u32>(t: f64) -> bool {
     excess.wrapping_sub(HALFWAY - MARGIN) > 2 * MARGIN
 }
 
-/// The exact value that `t` is known to be within `relative_error` of, rounded to `f32`, or `None` where that cannot be told.
+/// The exact value that `t` is known to be within `relative_error` of, besides the rounding of `t` itself, rounded to `f32`;
+/// or `None` where that cannot be told.
 #[expect(clippy::cast_possible_truncation, reason = "rounding is what this does")]
 pub(crate) fn round_to_f32(t: f64, relative_error: f64) -> Option<f32> {
-    let error = t.abs() * relative_error;
+    // With half an ulp for t, and half for each end.
+    let error = t.abs() * (relative_error + f64::EPSILON);
     let low = (t - error) as f32;
     let high = (t + error) as f32;
-    (low == high).then_some(low)
+    // In bits, because an interval around zero has two.
+    (low.to_bits() == high.to_bits()).then_some(low)
 }
 
 /// The exact value that `t` is known to be nearly equal to, rounded to `f32`: `compare` says how the exact value compares with
