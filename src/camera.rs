@@ -22,22 +22,21 @@ use crate::{CameraError, Ray, Scalar, Vector, ViewRect};
 /// A camera: makes the eye ray through each point of an image.
 ///
 /// It stands at the eye e and has three unit vectors at right angles to one another, its [basis](Self::basis): U to the
-/// right, V up, and W backwards, against the direction of view. A point (u, v) of the view plane is reached by u along
-/// U and v along V; the image is the part of that plane in the [view rectangle](ViewRect).
+/// right, V up, and W backwards, against the direction of view. A point (u, v) of the view plane lies u along U and v
+/// along V from the point straight ahead of the eye; the image shows the part of that plane in the
+/// [view rectangle](ViewRect).
 ///
-/// - **Orthographic**: the view plane is the eye's own. The rays are parallel: from `e + u U + v V` along `-W`.
-/// - **Perspective**: the view plane is at a distance before the eye, the focal length. Every ray comes from the eye,
-///   `e`, and goes through `e + u U + v V - distance W`. Its direction is not unit: `t = 1` is the view plane.
+/// - **Orthographic**: the eye lies in the view plane. Each ray begins at a point s of that plane, and all are parallel.
+/// - **Perspective**: the view plane is ahead of the eye, at a distance, the focal length. Each ray begins at the eye and
+///   goes through a point s of that plane. Its direction is not unit, so that `t = 1` is the view plane.
 ///
-/// What it computes, it computes in f64, and rounds to the precision of `V` at the end; what would be beyond the largest
-/// finite value is infinite. So with [`Vec3`](glam::Vec3), wherever in the scene the camera stands and however near to
-/// the view its up vector is, each ray of [`ray`](Self::ray) is the exact one of the given values, rounded: the
-/// direction is off by less than 1 ulp of its length, and the origin by less than 1 ulp of its largest coordinate and
-/// 2^-50 of |e| + |u| + |v|. The latter shows only where these cancel to 2^-27. With [`DVec3`](glam::DVec3) the
-/// direction is within 7 ulp of its length. (`cargo test --test camera accuracy` compares both with exact integers.)
+/// ```text
+/// orthographic    s = e + u U + v V                 origin s,  direction -W
+/// perspective     s = e + u U + v V - distance W    origin e,  direction s - e
+/// ```
 ///
-/// All of it is made of sums, products, quotients and square roots, so it is the same on every machine; only the tangent
-/// of [`perspective_fov`](Self::perspective_fov) may not be.
+#[doc = include_str!("diagrams/orthographic.svg")]
+#[doc = include_str!("diagrams/perspective.svg")]
 ///
 /// ```
 /// use eyeray::{Camera, ViewRect};
@@ -57,6 +56,21 @@ use crate::{CameraError, Ray, Scalar, Vector, ViewRect};
 /// # Ok(())
 /// # }
 /// ```
+///
+/// # Accuracy
+///
+/// A camera computes in `f64` and rounds to the precision of `V` at the end; what would be beyond the largest finite value
+/// is infinite. Each ray of [`ray`](Self::ray) is the exact one of the given values, up to this:
+///
+/// - With [`Vec3`](glam::Vec3), wherever in the scene the camera stands and however near to the view its up vector is, the
+///   direction is off by less than 1 ulp of its length, and the origin by less than 1 ulp of its largest coordinate plus
+///   2⁻⁵⁰ (|e| + |u| + |v|). The second term shows only where the three cancel to 2⁻²⁷ of that.
+/// - With [`DVec3`](glam::DVec3) the direction is within 7 ulp of its length.
+///
+/// `cargo test --test camera accuracy` compares both with exact integers.
+///
+/// There is nothing in it but sums, products, quotients and square roots, so a camera is the same on every machine, unless
+/// the tangent of [`perspective_fov`](Self::perspective_fov) is not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera<V: Vector = glam::Vec3> {
     eye: DVec3,
@@ -78,7 +92,7 @@ enum Projection {
 impl<V: Vector> Camera<V> {
     /// The orthographic camera at `eye`, looking to `target`, with `up` upwards in the image.
     ///
-    /// Of `target` and `up` only their directions from the eye count.
+    /// Only directions count: from the eye to `target`, and of `up`, which need not be at a right angle to the view.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};
@@ -111,7 +125,8 @@ impl<V: Vector> Camera<V> {
     /// The perspective camera at `eye`, looking to `target`, with `up` upwards in the image, through a view rectangle at
     /// `distance` from the eye: the focal length.
     ///
-    /// Of `target` and `up` only their directions from the eye count: the target need not be in the view plane.
+    /// Only directions count: from the eye to `target`, which need not be in the view plane, and of `up`, which need not be
+    /// at a right angle to the view.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};
@@ -259,8 +274,8 @@ impl<V: Vector> Camera<V> {
 
     /// The eye ray through a point of an image of `width` by `height` pixels that shows the view rectangle.
     ///
-    /// The point counts in pixels, rightwards and downwards from the top left corner of the image, so the center of the
-    /// first pixel is (0.5, 0.5) and the bottom right corner is (`width`, `height`). With x and y for it,
+    /// The point (x, y) counts in pixels, rightwards and downwards from the top left corner of the image, so the center of
+    /// the first pixel is (0.5, 0.5) and the bottom right corner is (`width`, `height`). In the view plane it is
     /// `u = left + (right - left) x / width` and `v = top - (top - bottom) y / height`.
     ///
     /// The point may be anywhere inside a pixel, as antialiasing wants it, and outside the image as well. A `width` or
@@ -318,10 +333,14 @@ impl<V: Vector> Camera<V> {
 
     /// The point (u, v) of the view plane whose eye ray reaches `point`: the inverse of [`ray`](Self::ray).
     ///
-    /// `None` where no eye ray reaches the point: in perspective at the eye and beside or behind it, orthographically on
-    /// the view plane, where rays begin but `t > 0` does not hold, and behind it; if the point is not finite; if u or v
-    /// would not be. Whether a point is before or behind that plane is decided in f64: nearer to it than 2^-50 of the distance
-    /// from the eye, rounding may say either.
+    /// `None` where no eye ray reaches the point:
+    ///
+    /// - in perspective at the eye, and beside or behind it;
+    /// - orthographically behind the view plane, and on it, for a ray begins there but reaches only what has `t > 0`;
+    /// - if the point is not finite, or u or v would not be.
+    ///
+    /// Which side of the eye a point is on is decided in `f64`: if it is nearer to the plane through the eye, at right
+    /// angles to the view, than 2⁻⁵⁰ of its distance from the eye, rounding may say either.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};

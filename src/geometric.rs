@@ -8,15 +8,23 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 
 /// A sphere met by the geometric derivation.
 ///
-/// The lecture has the unit sphere at the world's origin and a unit direction. The ray passes closest to the center at
-/// `t_m = -p·d`, at a distance `l_m` with `l_m² = p·p - (p·d)²`; if that is less than the radius, half the chord is
-/// `Δt = √(1 - l_m²)`, and the roots are `t_m ± Δt`. For any center c, radius r and direction d, with `o = c - p`,
+/// The ray passes closest to the center c at `t_m`, at a distance `l_m`. If that is no more than the radius r, the line
+/// meets the sphere half a chord before and half a chord after it, at `t_m - Δt` and `t_m + Δt`.
+///
+#[doc = include_str!("diagrams/closest_approach.svg")]
+///
+/// The point of closest approach makes a right triangle with the center and the origin p, and another with the center and
+/// either root, where the radius goes on as the normal n. With `o = c - p`, and every t counted in lengths of the
+/// direction d,
 ///
 /// ```text
 /// t_m  = o·d / d·d
 /// l_m² = o·o - (o·d)² / d·d = |o × d|² / d·d        (Lagrange's identity)
 /// Δt   = √((r² - l_m²) / d·d) = √(r² (d·d) - |o × d|²) / d·d
 /// ```
+///
+/// In the lecture the sphere is the unit sphere at the world's origin and the direction is unit, so that `t_m = -p·d`,
+/// `l_m² = p·p - (p·d)²` and `Δt = √(1 - l_m²)`.
 ///
 /// The form with the cross product does not subtract two large squares, and so loses little of `l_m` even where the sphere
 /// is far away. In `f32` the roots are the same, bit for bit, as those of [`Algebraic`](crate::Algebraic): what is promised

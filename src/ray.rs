@@ -8,6 +8,8 @@ use crate::Vector;
 /// The direction need not be unit. Every distance `t` along a ray counts in lengths of its direction, so scaling the
 /// direction by a > 0 leaves the half line as it is and divides every `t` by a.
 ///
+#[doc = include_str!("diagrams/ray.svg")]
+///
 /// Any value is allowed in the fields. A ray with a NaN, an infinity or a zero direction meets nothing.
 ///
 /// ```

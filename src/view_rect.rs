@@ -4,17 +4,7 @@ use crate::Scalar;
 
 /// The view rectangle: the part of the view plane that the image shows, in the lecture's terms l, r, b and t.
 ///
-/// ```text
-///                        v
-///                        ^
-///      (left, top)       |            (right, top)
-///           +------------|-----------------+
-///           |            |                 |
-///           |            e-----------------|---> u
-///           |                              |
-///           +------------------------------+
-///      (left, bottom)               (right, bottom)
-/// ```
+#[doc = include_str!("diagrams/view_rect.svg")]
 ///
 /// The four count in the units of the scene along the camera's u (to the right) and v (up), from the point of the view
 /// plane straight ahead of the eye. The rectangle need not be centered there, nor even contain that point: a
