@@ -251,7 +251,8 @@ impl<V: Vector> Camera<V> {
     /// # fn main() -> Result<(), eyeray::CameraError> {
     /// let view = ViewRect::centered(4.0, 3.0);
     /// let camera = Camera::perspective(vec3(0.0, 0.0, 5.0), Vec3::ZERO, Vec3::Y, view, 2.0)?;
-    /// let hit = Sphere::new(Vec3::ZERO, 1.0).intersect(&camera.ray(Vec2::ZERO), 0.0..f32::INFINITY);
+    /// let sphere = Sphere::new(Vec3::ZERO, 1.0);
+    /// let hit = sphere.intersect(&camera.ray(Vec2::ZERO), 0.0..f32::INFINITY);
     /// assert_eq!(hit.map(|hit| hit.t), Some(2.0));
     /// # Ok(())
     /// # }
@@ -395,7 +396,8 @@ impl<V: Vector> Camera<V> {
     /// # fn main() -> Result<(), eyeray::CameraError> {
     /// let view = ViewRect::centered(4.0, 3.0);
     /// // Up need not be at a right angle to the view.
-    /// let camera = Camera::orthographic(vec3(7.0, 0.0, 0.0), Vec3::ZERO, vec3(3.0, 0.0, 1.0), view)?;
+    /// let (eye, up) = (vec3(7.0, 0.0, 0.0), vec3(3.0, 0.0, 1.0));
+    /// let camera = Camera::orthographic(eye, Vec3::ZERO, up, view)?;
     /// assert_eq!(camera.basis(), [Vec3::Y, Vec3::Z, Vec3::X]);
     /// # Ok(())
     /// # }
