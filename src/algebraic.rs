@@ -30,6 +30,9 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// assert_eq!(sphere.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(2.0));
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(bound(serialize = "Sphere<V>: serde::Serialize")))]
+#[cfg_attr(feature = "serde", serde(bound(deserialize = "Sphere<V>: serde::Deserialize<'de>")))]
 #[repr(transparent)]
 pub struct Algebraic<V: Vector = glam::Vec3>(pub Sphere<V>);
 

@@ -73,18 +73,18 @@ use crate::{CameraError, Ray, Scalar, Vector, ViewRect};
 /// the tangent of [`perspective_fov`](Self::perspective_fov) is not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera<V: Vector = glam::Vec3> {
-    eye: DVec3,
-    u: DVec3,
-    v: DVec3,
-    w: DVec3,
-    view: ViewRect<f64>,
-    projection: Projection,
-    precision: PhantomData<V>,
+    pub(crate) eye: DVec3,
+    pub(crate) u: DVec3,
+    pub(crate) v: DVec3,
+    pub(crate) w: DVec3,
+    pub(crate) view: ViewRect<f64>,
+    pub(crate) projection: Projection,
+    pub(crate) precision: PhantomData<V>,
 }
 
 /// How the points of the view plane become rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Projection {
+pub(crate) enum Projection {
     Orthographic,
     Perspective { distance: f64 },
 }

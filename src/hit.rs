@@ -25,6 +25,7 @@ use crate::{Ray, Vector};
 /// }
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hit<V: Vector = glam::Vec3> {
     /// The distance along the ray, in lengths of its direction.
     pub t: V::Scalar,

@@ -44,6 +44,7 @@
 //! - `libm`: for `no_std`, square roots from the [libm](https://docs.rs/libm) crate. One of `std` and `libm` is needed.
 //! - `alloc`: `Spheres`, and [`Hittable`] for boxes.
 #![cfg_attr(not(feature = "std"), no_std)]
+#![cfg_attr(not(feature = "bytemuck"), forbid(unsafe_code))]
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!(
@@ -59,7 +60,9 @@ mod basis;
 mod camera;
 mod camera_error;
 mod chord;
+mod convert;
 mod double;
+mod features;
 mod first_try;
 mod float;
 mod geometric;

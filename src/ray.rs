@@ -20,6 +20,7 @@ use crate::Vector;
 /// assert_eq!(ray.at(1.5), vec3(0.0, 1.0, -3.0));
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C)]
 pub struct Ray<V = glam::Vec3> {
     /// Where the ray starts: the lecture's p.

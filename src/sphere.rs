@@ -52,6 +52,7 @@ use crate::{Hit, Hittable, Ray, Vector};
 /// (Ziv's test), that is the answer. Otherwise the derivation is carried out again in pairs of `f64`; and where pairs cannot
 /// tell either, in integers, exactly.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C)]
 pub struct Sphere<V: Vector = glam::Vec3> {
     /// The center.

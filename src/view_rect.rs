@@ -19,6 +19,7 @@ use crate::Scalar;
 /// assert_eq!((view.width(), view.height()), (4.0, 2.0));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ViewRect<S = f32> {
     /// The smallest u: the lecture's l.
     pub left: S,

@@ -1,0 +1,107 @@
+//! From one precision to the other: to `f64` exactly, with [`From`]; to `f32` rounded, with `to_f32`.
+
+use glam::{DVec3, Vec3};
+
+use crate::{Hit, Ray, Scalar, Sphere, ViewRect};
+
+/// The same ray: exact.
+impl From<Ray<Vec3>> for Ray<DVec3> {
+    #[inline]
+    fn from(Ray { origin, direction }: Ray<Vec3>) -> Self {
+        Self { origin: origin.into(), direction: direction.into() }
+    }
+}
+
+/// The same sphere: exact.
+impl From<Sphere<Vec3>> for Sphere<DVec3> {
+    #[inline]
+    fn from(Sphere { center, radius }: Sphere<Vec3>) -> Self {
+        Self { center: center.into(), radius: radius.into() }
+    }
+}
+
+/// The same hit: exact. Its spawned rays keep the distance from the surface that an `f32` point needs.
+///
+/// There is no way back: a point rounded to `f32` is off by more than the distance at which an `f64` hit spawns its rays.
+impl From<Hit<Vec3>> for Hit<DVec3> {
+    #[inline]
+    fn from(Hit { t, point, normal, clearance }: Hit<Vec3>) -> Self {
+        Self {
+            t: t.into(),
+            point: point.into(),
+            normal: normal.into(),
+            clearance: clearance.into(),
+        }
+    }
+}
+
+/// The same rectangle: exact.
+impl From<ViewRect<f32>> for ViewRect<f64> {
+    #[inline]
+    fn from(ViewRect { left, right, bottom, top }: ViewRect<f32>) -> Self {
+        Self { left: left.into(), right: right.into(), bottom: bottom.into(), top: top.into() }
+    }
+}
+
+impl Ray<DVec3> {
+    /// The ray in `f32`, each coordinate rounded to the nearest, ties to even.
+    ///
+    /// What is beyond the largest `f32` becomes infinite, and what is below half the smallest becomes zero: such a ray
+    /// may meet nothing, for its origin or direction is not finite, or its direction zero.
+    ///
+    /// ```
+    /// use eyeray::Ray;
+    /// use glam::{DVec3, Vec3, dvec3, vec3};
+    ///
+    /// let ray = Ray::new(dvec3(0.1, 1e300, -1e-300), DVec3::NEG_Z);
+    /// assert_eq!(ray.to_f32(), Ray::new(vec3(0.1, f32::INFINITY, 0.0), Vec3::NEG_Z));
+    ///
+    /// // The way back is exact.
+    /// assert_eq!(Ray::<DVec3>::from(ray.to_f32()).to_f32(), ray.to_f32());
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn to_f32(self) -> Ray<Vec3> {
+        Ray { origin: self.origin.as_vec3(), direction: self.direction.as_vec3() }
+    }
+}
+
+impl Sphere<DVec3> {
+    /// The sphere in `f32`, each coordinate of the center and the radius rounded to the nearest, ties to even.
+    ///
+    /// What is beyond the largest `f32` becomes infinite, and nothing meets the sphere; a radius below half the smallest
+    /// becomes zero. The rounded sphere neither holds the other nor is held by it.
+    ///
+    /// ```
+    /// use eyeray::Sphere;
+    /// use glam::{DVec3, Vec3};
+    ///
+    /// assert_eq!(Sphere::new(DVec3::X, 0.1).to_f32(), Sphere::new(Vec3::X, 0.1));
+    /// assert_eq!(Sphere::new(DVec3::X, 1e300).to_f32().radius, f32::INFINITY);
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn to_f32(self) -> Sphere<Vec3> {
+        Sphere { center: self.center.as_vec3(), radius: f32::from_f64(self.radius) }
+    }
+}
+
+impl ViewRect<f64> {
+    /// The rectangle in `f32`, each side rounded to the nearest, ties to even.
+    ///
+    /// What is beyond the largest `f32` becomes infinite, and sides that are nearer than an `f32` can tell become equal: a
+    /// camera accepts neither.
+    ///
+    /// ```
+    /// use eyeray::ViewRect;
+    ///
+    /// assert_eq!(ViewRect::centered(0.2, 1e300).to_f32(), ViewRect::centered(0.2, f32::INFINITY));
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn to_f32(self) -> ViewRect<f32> {
+        let [left, right, bottom, top] =
+            [self.left, self.right, self.bottom, self.top].map(f32::from_f64);
+        ViewRect { left, right, bottom, top }
+    }
+}
