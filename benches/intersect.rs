@@ -1,0 +1,278 @@
+//! The hot path by criterion: one ray against one sphere, the nearest of a slice, and eye rays, each beside the textbook.
+//!
+//! ```text
+//! cargo bench --bench intersect                  # everything, in about three minutes
+//! cargo bench --bench intersect -- f32/mixed     # what matches
+//! cargo bench --bench intersect -- --test        # each once, untimed
+//! ```
+//!
+//! Each benchmark goes through inputs enough that the branch predictor does not learn them by heart. The timing loop
+//! inlines what it times; adding up what comes back is part of the time, for every method alike.
+#![allow(missing_docs, reason = "criterion's macros make public functions")]
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use eyeray::{Algebraic, Camera, Geometric, Hittable, Ray, Sphere, Vector, ViewRect, nearest};
+use glam::{DVec2, DVec3, Vec2, Vec3};
+
+#[path = "../tests/support/families.rs"]
+mod families;
+mod methods;
+
+use families::{Case, FAMILIES, Family, Precision, Rng};
+
+const SEED: u64 = 20;
+
+/// The cases of each benchmark: too many to learn by heart.
+const CASES: usize = 16_384;
+
+/// The family of that name.
+fn family(name: &str) -> &'static Family {
+    FAMILIES.iter().find(|family| family.name == name).expect("it is one of them")
+}
+
+/// So many cases from a generator, of those that are wanted.
+fn cases<V: Precision>(
+    next: fn(&mut Rng) -> Case<V>,
+    wanted: impl Fn(&Case<V>) -> bool,
+) -> Vec<Case<V>> {
+    let mut rng = Rng::new(SEED);
+    std::iter::repeat_with(|| next(&mut rng)).filter(wanted).take(CASES).collect()
+}
+
+/// Times `test` over all the cases: the sum of what it returns keeps its work alive.
+fn total<V: Precision, T: std::iter::Sum>(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    name: &str,
+    cases: &[Case<V>],
+    test: impl Fn(&Ray<V>, &Sphere<V>) -> T,
+) {
+    group.bench_function(name, |bencher| {
+        bencher
+            .iter(|| -> T { black_box(cases).iter().map(|(ray, sphere)| test(ray, sphere)).sum() });
+    });
+}
+
+/// Times `test` over all the cases, and has all that it returns stored.
+fn stored<V: Precision, T>(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    name: &str,
+    cases: &[Case<V>],
+    test: impl Fn(&Ray<V>, &Sphere<V>) -> T,
+) {
+    group.bench_function(name, |bencher| {
+        bencher.iter(|| {
+            for (ray, sphere) in black_box(cases) {
+                black_box(test(ray, sphere));
+            }
+        });
+    });
+}
+
+macro_rules! single_ray {
+    ($function:ident, $module:ident, $vector:ident, $float:ident) => {
+        fn $function(criterion: &mut Criterion) {
+            use methods::$module as published;
+
+            const ALL: std::ops::Range<$float> = 0.0..$float::INFINITY;
+            let is_hit = |(ray, sphere): &Case<$vector>| sphere.intersect(ray, ALL).is_some();
+            let situations = [
+                ("mixed", cases(family("easy").$float, |_| true)),
+                ("hit", cases(family("easy").$float, is_hit)),
+                ("miss", cases(family("easy").$float, |case| !is_hit(case))),
+                ("inside", cases(family("inside").$float, |_| true)),
+                ("grazing", cases(family("grazing").$float, |_| true)),
+            ];
+            for (situation, cases) in &situations {
+                let mut group =
+                    criterion.benchmark_group(format!("{}/{situation}", stringify!($float)));
+                group.throughput(Throughput::Elements(cases.len() as u64));
+
+                total(&mut group, "nearest t, textbook", cases, |ray, sphere| {
+                    published::ahead(published::textbook(ray, sphere)).unwrap_or_default()
+                });
+                total(&mut group, "nearest t, intersect", cases, |ray, sphere| {
+                    sphere.intersect(ray, ALL).map_or(0.0, |hit| hit.t)
+                });
+                total(&mut group, "nearest t, Algebraic", cases, |ray, sphere| {
+                    Algebraic(*sphere).intersect(ray, ALL).map_or(0.0, |hit| hit.t)
+                });
+                total(&mut group, "nearest t, Geometric", cases, |ray, sphere| {
+                    Geometric(*sphere).intersect(ray, ALL).map_or(0.0, |hit| hit.t)
+                });
+
+                stored(&mut group, "whole hit, textbook", cases, published::textbook_shading);
+                stored(&mut group, "whole hit, intersect", cases, |ray, sphere| {
+                    sphere.intersect(ray, ALL)
+                });
+
+                total(&mut group, "occlusion, textbook", cases, |ray, sphere| {
+                    usize::from(published::ahead(published::textbook(ray, sphere)).is_some())
+                });
+                total(&mut group, "occlusion, occludes", cases, |ray, sphere| {
+                    usize::from(sphere.occludes(ray, ALL))
+                });
+
+                let sum = |roots: Option<[$float; 2]>| roots.map_or(0.0, |[near, far]| near + far);
+                total(&mut group, "both roots, textbook", cases, |ray, sphere| {
+                    sum(published::textbook(ray, sphere))
+                });
+                total(&mut group, "both roots, roots_algebraic", cases, |ray, sphere| {
+                    sum(sphere.roots_algebraic(ray))
+                });
+                total(&mut group, "both roots, roots_geometric", cases, |ray, sphere| {
+                    sum(sphere.roots_geometric(ray))
+                });
+            }
+        }
+    };
+}
+
+single_ray!(single_ray_f32, single, Vec3, f32);
+single_ray!(single_ray_f64, double, DVec3, f64);
+
+macro_rules! nearest_of_slice {
+    ($function:ident, $module:ident, $vector:ident, $float:ident) => {
+        /// Small spheres about a box that the rays cross.
+        fn $function(criterion: &mut Criterion) {
+            use methods::$module as published;
+
+            const RAYS: usize = 256;
+            for count in [46, 1024] {
+                let mut rng = Rng::new(SEED);
+                let mut point = |extent: f64| $vector::from_f64(rng.unit_vector() * extent);
+                let spheres: Vec<_> = (0..count).map(|_| Sphere::new(point(10.0), 0.75)).collect();
+                let rays: Vec<_> = (0..RAYS)
+                    .map(|_| {
+                        let origin = point(20.0);
+                        Ray::new(origin, point(8.0) - origin)
+                    })
+                    .collect();
+
+                let mut group =
+                    criterion.benchmark_group(format!("{}/nearest of {count}", stringify!($float)));
+                group.throughput(Throughput::Elements((count * RAYS) as u64));
+                group.bench_function("textbook", |bencher| {
+                    bencher.iter(|| {
+                        let mut sum = 0.0;
+                        for ray in black_box(&rays) {
+                            let mut found = $float::INFINITY;
+                            for sphere in &spheres {
+                                let t = published::ahead(published::textbook(ray, sphere));
+                                found = found.min(t.unwrap_or($float::INFINITY));
+                            }
+                            sum += if found < $float::INFINITY { found } else { 0.0 };
+                        }
+                        sum
+                    });
+                });
+                group.bench_function("nearest", |bencher| {
+                    bencher.iter(|| -> $float {
+                        let hits = black_box(&rays)
+                            .iter()
+                            .filter_map(|ray| nearest(&spheres, ray, 0.0..$float::INFINITY));
+                        hits.map(|(_, hit)| hit.t).sum()
+                    });
+                });
+            }
+        }
+    };
+}
+
+nearest_of_slice!(nearest_f32, single, Vec3, f32);
+nearest_of_slice!(nearest_f64, double, DVec3, f64);
+
+const EYE: Vec3 = Vec3::new(3.0, 2.0, 5.0);
+const VIEW: ViewRect = ViewRect { left: -1.6, right: 1.6, bottom: -0.9, top: 0.9 };
+const DISTANCE: f32 = 2.0;
+const WIDTH: u32 = 160;
+const HEIGHT: u32 = 90;
+
+/// The image-plane points of the pixels' centers, as the textbook has them.
+#[expect(clippy::cast_precision_loss, reason = "pixels are few")]
+fn pixel_centers() -> impl Iterator<Item = (f32, f32)> {
+    let u =
+        |column: u32| VIEW.left + (VIEW.right - VIEW.left) * (column as f32 + 0.5) / WIDTH as f32;
+    let v = |row: u32| VIEW.top - (VIEW.top - VIEW.bottom) * (row as f32 + 0.5) / HEIGHT as f32;
+    (0..HEIGHT).flat_map(move |row| (0..WIDTH).map(move |column| (u(column), v(row))))
+}
+
+/// Times making all the rays of an image.
+fn image<V: Precision, I: Iterator<Item = Ray<V>>>(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    name: &str,
+    rays: impl Fn() -> I,
+) {
+    group.bench_function(name, |bencher| {
+        bencher.iter(|| {
+            for ray in rays() {
+                black_box(ray);
+            }
+        });
+    });
+}
+
+fn eye_rays(criterion: &mut Criterion) {
+    let wide = |vector: Vec3| vector.as_dvec3();
+    let view = ViewRect {
+        left: f64::from(VIEW.left),
+        right: f64::from(VIEW.right),
+        bottom: f64::from(VIEW.bottom),
+        top: f64::from(VIEW.top),
+    };
+    let (target, up) = (Vec3::ZERO, Vec3::Y);
+    let cameras = [
+        (
+            "perspective",
+            Camera::perspective(EYE, target, up, VIEW, DISTANCE),
+            Camera::perspective(wide(EYE), wide(target), wide(up), view, f64::from(DISTANCE)),
+        ),
+        (
+            "orthographic",
+            Camera::orthographic(EYE, target, up, VIEW),
+            Camera::orthographic(wide(EYE), wide(target), wide(up), view),
+        ),
+    ];
+    for (projection, camera, camera_f64) in cameras {
+        let (Ok(camera), Ok(camera_f64)) = (camera, camera_f64) else { continue };
+        let mut group = criterion.benchmark_group(format!("eye rays/{projection}"));
+        group.throughput(Throughput::Elements(u64::from(WIDTH) * u64::from(HEIGHT)));
+
+        let basis = camera.basis();
+        if projection == "perspective" {
+            image(&mut group, "f32 ray, textbook", || {
+                let (eye, basis) = black_box((EYE, basis));
+                pixel_centers()
+                    .map(move |(u, v)| methods::perspective_ray(eye, basis, DISTANCE, u, v))
+            });
+        } else {
+            image(&mut group, "f32 ray, textbook", || {
+                let (eye, basis) = black_box((EYE, basis));
+                pixel_centers().map(move |(u, v)| methods::orthographic_ray(eye, basis, u, v))
+            });
+        }
+        image(&mut group, "f32 ray", || {
+            let camera = black_box(camera);
+            pixel_centers().map(move |(u, v)| camera.ray(Vec2::new(u, v)))
+        });
+        image(&mut group, "f32 rays", || black_box(camera).rays(WIDTH, HEIGHT));
+        image(&mut group, "f64 ray", || {
+            let camera = black_box(camera_f64);
+            pixel_centers().map(move |(u, v)| camera.ray(DVec2::new(u.into(), v.into())))
+        });
+        image(&mut group, "f64 rays", || black_box(camera_f64).rays(WIDTH, HEIGHT));
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(20)
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(500));
+    targets = single_ray_f32, single_ray_f64, nearest_f32, nearest_f64, eye_rays
+}
+criterion_main!(benches);
