@@ -1,0 +1,60 @@
+//! The families in a handful of groups, for the plot.
+
+use crate::support::families::{FAMILIES, Family};
+
+/// Families that err for a like reason.
+#[derive(Clone, Copy, Debug)]
+pub struct Group {
+    pub name: &'static str,
+    pub families: &'static [&'static str],
+}
+
+pub const GROUPS: [Group; 6] = [
+    Group {
+        name: "ordinary",
+        families: &["easy", "inside", "behind", "axis-parallel", "direction length"],
+    },
+    Group {
+        name: "far away or tiny",
+        families: &["far", "very far", "far from the world's origin", "tiny", "exact tie"],
+    },
+    Group { name: "huge spheres", families: &["huge"] },
+    Group {
+        name: "at the limb",
+        families: &[
+            "grazing",
+            "grazing from afar",
+            "exact tangent",
+            "tangent's neighbor",
+            "point sphere",
+        ],
+    },
+    Group { name: "from the surface", families: &["on the surface", "on the surface, exactly"] },
+    Group {
+        name: "extreme values",
+        families: &[
+            "extreme direction length",
+            "scene scale",
+            "subnormal",
+            "near overflow",
+            "coefficients, narrow",
+            "coefficients, wide",
+            "coefficients, widest",
+            "random bits",
+            "random finite bits",
+        ],
+    },
+];
+
+/// The group of a family.
+pub fn group_of(family: &Family) -> &'static Group {
+    let of = |group: &&Group| group.families.contains(&family.name);
+    GROUPS.iter().find(of).expect("every family is in a group")
+}
+
+/// The families, group by group.
+pub fn families() -> impl Iterator<Item = &'static Family> {
+    GROUPS
+        .iter()
+        .flat_map(|group| FAMILIES.iter().filter(|family| group_of(family).name == group.name))
+}

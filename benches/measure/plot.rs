@@ -1,0 +1,362 @@
+//! Time against worst error, as an SVG.
+//!
+//! Both axes are logarithmic. Beneath the errors, a band of its own holds the methods that are never wrong and correctly
+//! rounded. Every panel has the same axes, and draws the front of the methods than which none is both faster and more
+//! accurate. The picture brings its own background, light or dark as the reader prefers.
+
+use std::fmt::Write as _;
+
+use super::Kind;
+
+/// What the picture shows, for those who do not see it.
+pub const ALT_TEXT: &str = "Time a test against worst error in ulps, both logarithmic, a panel for each group of families: \
+eyeray's methods lie lowest, a little to the right of the textbook, which lies high.";
+
+/// A method in a group of families.
+#[derive(Clone, Debug)]
+pub struct Mark {
+    pub label: &'static str,
+    pub kind: Kind,
+    pub nanoseconds: f64,
+    /// The worst error, NaN where there was no answer to judge.
+    pub ulps: f64,
+    pub correctly_rounded: bool,
+    pub decides_wrongly: bool,
+}
+
+/// A group of families.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    pub title: &'static str,
+    pub marks: Vec<Mark>,
+}
+
+const WIDTH: f64 = 880.0;
+const COLUMNS: usize = 2;
+const HEAD: f64 = 64.0;
+const FOOT: f64 = 44.0;
+const PANEL_WIDTH: f64 = 375.0;
+const PANEL_HEIGHT: f64 = 270.0;
+const LEFT: f64 = 58.0;
+const GAP: f64 = 60.0;
+const ROW_HEIGHT: f64 = PANEL_HEIGHT + 64.0;
+/// The height of the band for what is correctly rounded.
+const BAND: f64 = 48.0;
+
+const FONT_SIZE: f64 = 11.0;
+const LETTER_WIDTH: f64 = 5.9;
+const MARK_RADIUS: f64 = 4.5;
+
+/// Colors are named once for light and once for dark, without CSS variables, which not every viewer knows.
+const STYLE: &str = "
+  text { font: 11px system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', sans-serif; fill: #24292f }
+  .title { font-size: 13px; font-weight: 600 } .end { text-anchor: end } .middle { text-anchor: middle }
+  .mark { stroke-width: 1.5 } text.plain, text.widened, text.eyeray { stroke: none }
+  .front { fill: none; stroke-width: 1.5; stroke-dasharray: 5 3 } .leader { stroke-width: 0.7 } .frame { fill: none }
+  .paper { fill: #ffffff } .band { fill: #e6f4ea } .grid { stroke: #d8dee4 }
+  .front, .frame, .leader { stroke: #8c959f }
+  .plain { fill: #9a6700; stroke: #9a6700 } .widened { fill: #0969da; stroke: #0969da }
+  .eyeray { fill: #1a7f37; stroke: #1a7f37 } .mark.wrong { fill: #ffffff }
+  @media (prefers-color-scheme: dark) {
+    text { fill: #e6edf3 }
+    .paper { fill: #0d1117 } .band { fill: #12261e } .grid { stroke: #30363d }
+    .front, .frame, .leader { stroke: #7d8590 }
+    .plain { fill: #d29922; stroke: #d29922 } .widened { fill: #58a6ff; stroke: #58a6ff }
+    .eyeray { fill: #3fb950; stroke: #3fb950 } .mark.wrong { fill: #0d1117 }
+  }
+";
+
+/// A rectangle of the picture.
+#[derive(Clone, Copy)]
+struct Area {
+    left: f64,
+    top: f64,
+    width: f64,
+    height: f64,
+}
+
+impl Area {
+    fn overlaps(&self, other: &Self) -> bool {
+        self.left < other.left + other.width
+            && other.left < self.left + self.width
+            && self.top < other.top + other.height
+            && other.top < self.top + self.height
+    }
+
+    fn contains(&self, other: &Self) -> bool {
+        self.left <= other.left
+            && other.left + other.width <= self.left + self.width
+            && self.top <= other.top
+            && other.top + other.height <= self.top + self.height
+    }
+}
+
+/// The axes that all panels share.
+struct Axes {
+    /// The logarithms of the nanoseconds at the left and at the right.
+    time: (f64, f64),
+    /// The logarithms of the ulps at the lower and at the upper end.
+    error: (f64, f64),
+}
+
+impl Axes {
+    fn new(panels: &[Panel]) -> Self {
+        let marks = || panels.iter().flat_map(|panel| &panel.marks);
+        let times = || marks().map(|mark| mark.nanoseconds.log10());
+        let errors = marks().map(|mark| mark.ulps).filter(|ulps| ulps.is_finite());
+        let worst = errors.fold(1.0, f64::max).log10();
+        let time = (
+            times().fold(f64::INFINITY, f64::min) - 0.12,
+            times().fold(f64::NEG_INFINITY, f64::max) + 0.25,
+        );
+        Self { time, error: (-0.6, worst.min(20.0) + 0.8) }
+    }
+
+    fn x(&self, nanoseconds: f64) -> f64 {
+        PANEL_WIDTH * (nanoseconds.log10() - self.time.0) / (self.time.1 - self.time.0)
+    }
+
+    /// Above the band. What is beyond the axis is at its end.
+    fn y(&self, ulps: f64) -> f64 {
+        let (low, high) = self.error;
+        let part = (ulps.log10().clamp(low + 0.15, high - 0.4) - low) / (high - low);
+        (PANEL_HEIGHT - BAND) * (1.0 - part)
+    }
+
+    fn place(&self, mark: &Mark) -> (f64, f64) {
+        let y = if mark.correctly_rounded || mark.ulps.is_nan() {
+            PANEL_HEIGHT - BAND / 2.0
+        } else {
+            self.y(mark.ulps)
+        };
+        (self.x(mark.nanoseconds), y)
+    }
+}
+
+/// The picture of the panels.
+pub fn draw(title: &str, panels: &[Panel]) -> String {
+    #[expect(clippy::cast_precision_loss, reason = "panels are few")]
+    let height = HEAD + ROW_HEIGHT * panels.len().div_ceil(COLUMNS) as f64 + FOOT - 20.0;
+    let axes = Axes::new(panels);
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" height=\"{height}\" \
+role=\"img\">\n<title>{title}</title>\n<desc>{ALT_TEXT}</desc>\n<style>{STYLE}</style>\n\
+<rect class=\"paper\" width=\"{WIDTH}\" height=\"{height}\" rx=\"8\"/>\n\
+<text class=\"title\" x=\"{LEFT}\" y=\"24\">{title}</text>\n"
+    );
+    legend(&mut svg);
+    for (index, panel) in panels.iter().enumerate() {
+        #[expect(clippy::cast_precision_loss, reason = "panels are few")]
+        let (column, row) = ((index % COLUMNS) as f64, (index / COLUMNS) as f64);
+        let (x, y) = (LEFT + column * (PANEL_WIDTH + GAP), HEAD + 22.0 + row * ROW_HEIGHT);
+        let _ = writeln!(svg, "<g transform=\"translate({x} {y})\">");
+        draw_panel(&mut svg, panel, &axes);
+        svg += "</g>\n";
+    }
+    svg += "</svg>\n";
+    svg
+}
+
+fn legend(svg: &mut String) {
+    let entries = [
+        (Kind::Plain, false, "in the inputs' precision"),
+        (Kind::Widened, false, "in f64 on f32 inputs"),
+        (Kind::Eyeray, false, "eyeray"),
+        (Kind::Plain, true, "hollow: some hits or misses wrong"),
+    ];
+    let mut x = LEFT + MARK_RADIUS;
+    for (kind, hollow, text) in entries {
+        symbol(svg, (x, 42.0), kind, hollow);
+        let _ = writeln!(svg, "<text x=\"{:.0}\" y=\"46\">{text}</text>", x + 10.0);
+        x += 34.0 + LETTER_WIDTH * letters(text);
+    }
+    let _ = writeln!(
+        svg,
+        "<path class=\"front\" d=\"M{x} 42h26\"/><text x=\"{:.0}\" y=\"46\">Pareto front</text>",
+        x + 32.0
+    );
+}
+
+fn draw_panel(svg: &mut String, panel: &Panel, axes: &Axes) {
+    let band_top = PANEL_HEIGHT - BAND;
+    let _ = writeln!(
+        svg,
+        "<text class=\"title\" x=\"0\" y=\"-8\">{}</text>\n\
+<rect class=\"band\" y=\"{band_top}\" width=\"{PANEL_WIDTH}\" height=\"{BAND}\"/>",
+        panel.title
+    );
+    draw_axes(svg, axes);
+    let _ = writeln!(
+        svg,
+        "<rect class=\"frame\" width=\"{PANEL_WIDTH}\" height=\"{PANEL_HEIGHT}\"/>\n\
+<text x=\"6\" y=\"{:.0}\">0 wrong, correctly rounded</text>",
+        PANEL_HEIGHT - 5.0
+    );
+
+    let places: Vec<_> = panel.marks.iter().map(|mark| axes.place(mark)).collect();
+    let front: Vec<String> =
+        front(&places).into_iter().map(|(x, y)| format!("{x:.1} {y:.1}")).collect();
+    let _ = writeln!(svg, "<path class=\"front\" d=\"M{}\"/>", front.join("L"));
+
+    let mut taken: Vec<Area> = places
+        .iter()
+        .map(|&(x, y)| Area {
+            left: x - MARK_RADIUS,
+            top: y - MARK_RADIUS,
+            width: 2.0 * MARK_RADIUS,
+            height: 2.0 * MARK_RADIUS,
+        })
+        .collect();
+    // The words in the band.
+    taken.push(Area { left: 0.0, top: PANEL_HEIGHT - 16.0, width: 160.0, height: 16.0 });
+    let mut order: Vec<usize> = (0..places.len()).collect();
+    order.sort_by(|&i, &j| places[j].0.total_cmp(&places[i].0));
+    for index in order {
+        name_mark(svg, &panel.marks[index], places[index], &mut taken);
+    }
+    for (mark, &place) in panel.marks.iter().zip(&places) {
+        symbol(svg, place, mark.kind, mark.decides_wrongly);
+    }
+}
+
+fn draw_axes(svg: &mut String, axes: &Axes) {
+    let band_top = PANEL_HEIGHT - BAND;
+    for nanoseconds in
+        (0..5).flat_map(|power| [1, 2, 5].map(|digit| f64::from(digit) * 10_f64.powi(power)))
+    {
+        let x = axes.x(nanoseconds);
+        if (0.0..=PANEL_WIDTH).contains(&x) {
+            let _ = writeln!(
+                svg,
+                "<path class=\"grid\" d=\"M{x:.1} 0V{PANEL_HEIGHT}\"/>\
+<text class=\"middle\" x=\"{x:.1}\" y=\"{:.0}\">{nanoseconds}</text>",
+                PANEL_HEIGHT + 15.0
+            );
+        }
+    }
+    let _ = writeln!(
+        svg,
+        "<text class=\"middle\" x=\"{:.0}\" y=\"{:.0}\">ns a test, branches predicted</text>",
+        PANEL_WIDTH / 2.0,
+        PANEL_HEIGHT + 30.0
+    );
+
+    let step = if axes.error.1 > 12.0 { 4 } else { 2 };
+    let powers = (0..=20).step_by(step).take_while(|&power| f64::from(power) < axes.error.1 - 0.2);
+    let ticks = powers.map(|power| {
+        let name = if power == 0 { "1".into() } else { format!("10{}", superscript(power)) };
+        (10_f64.powi(power), name)
+    });
+    for (ulps, name) in ticks {
+        let y = axes.y(ulps);
+        let _ = writeln!(
+            svg,
+            "<path class=\"grid\" d=\"M0 {y:.1}H{PANEL_WIDTH}\"/>\
+<text class=\"end\" x=\"-5\" y=\"{:.1}\">{name}</text>",
+            y + 4.0
+        );
+    }
+    let _ = writeln!(
+        svg,
+        "<text class=\"middle\" transform=\"translate(-36 {:.0}) rotate(-90)\">worst error in ulps</text>",
+        band_top / 2.0
+    );
+}
+
+fn superscript(number: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    number.to_string().bytes().map(|digit| DIGITS[usize::from(digit - b'0')]).collect()
+}
+
+/// The places than which none is both further left and lower, from left to right.
+fn front(places: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut sorted = places.to_vec();
+    sorted.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let mut lowest = f64::NEG_INFINITY;
+    sorted.retain(|&(_, y)| {
+        let lower = y > lowest + 0.5;
+        lowest = lowest.max(y);
+        lower
+    });
+    sorted
+}
+
+fn class(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Plain => "plain",
+        Kind::Widened => "widened",
+        Kind::Eyeray => "eyeray",
+    }
+}
+
+/// A circle, a square or a diamond.
+fn symbol(svg: &mut String, (x, y): (f64, f64), kind: Kind, hollow: bool) {
+    let class = format!("class=\"mark {}{}\"", class(kind), if hollow { " wrong" } else { "" });
+    let r = MARK_RADIUS;
+    let _ = match kind {
+        Kind::Plain => {
+            writeln!(svg, "<circle {class} cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{}\"/>", r - 0.5)
+        }
+        Kind::Widened => writeln!(
+            svg,
+            "<rect {class} x=\"{:.1}\" y=\"{:.1}\" width=\"{}\" height=\"{}\"/>",
+            x - r + 0.8,
+            y - r + 0.8,
+            2.0 * r - 1.6,
+            2.0 * r - 1.6
+        ),
+        Kind::Eyeray => {
+            writeln!(svg, "<path {class} d=\"M{x:.1} {:.1}l{r} {r}l-{r} {r}l-{r} -{r}z\"/>", y - r)
+        }
+    };
+}
+
+/// Writes a mark's name where there is room, the nearer the better.
+fn name_mark(svg: &mut String, mark: &Mark, (x, y): (f64, f64), taken: &mut Vec<Area>) {
+    const PANEL: Area =
+        Area { left: 2.0, top: 2.0, width: PANEL_WIDTH - 4.0, height: PANEL_HEIGHT - 4.0 };
+    let (width, height) = (LETTER_WIDTH * letters(mark.label), FONT_SIZE + 1.0);
+    let beside = MARK_RADIUS + 3.0;
+    let near = [
+        (x + beside, y - height / 2.0),
+        (x - beside - width, y - height / 2.0),
+        (x - width / 2.0, y - MARK_RADIUS - height - 1.0),
+        (x - width / 2.0, y + MARK_RADIUS + 1.0),
+    ];
+    let around = (2..30).flat_map(|ring| {
+        (0..24).map(move |step| {
+            let (sine, cosine) = (f64::from(step) * std::f64::consts::TAU / 24.0).sin_cos();
+            let distance = 8.0 * f64::from(ring);
+            let center_x = x + cosine * (distance + width / 2.0);
+            (center_x - width / 2.0, y + sine * distance - height / 2.0)
+        })
+    });
+    let place = near
+        .into_iter()
+        .chain(around)
+        .map(|(left, top)| Area { left, top, width, height })
+        .enumerate()
+        .find(|(_, area)| PANEL.contains(area) && !taken.iter().any(|other| other.overlaps(area)));
+    let Some((choice, area)) = place else { return };
+    if choice >= near.len() {
+        // From the nearest point of the name.
+        let from_x = x.clamp(area.left, area.left + width);
+        let from_y = y.clamp(area.top + 1.0, area.top + height - 1.0);
+        let _ =
+            writeln!(svg, "<path class=\"leader\" d=\"M{from_x:.1} {from_y:.1}L{x:.1} {y:.1}\"/>");
+    }
+    taken.push(area);
+    let _ = writeln!(
+        svg,
+        "<text class=\"{}\" x=\"{:.1}\" y=\"{:.1}\">{}</text>",
+        class(mark.kind),
+        area.left,
+        area.top + height - 2.5,
+        mark.label
+    );
+}
+
+#[expect(clippy::cast_precision_loss, reason = "names are short")]
+fn letters(text: &str) -> f64 {
+    text.chars().count() as f64
+}

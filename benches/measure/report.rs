@@ -1,0 +1,382 @@
+//! The report: every method on every family, as a table, as Markdown, as CSV and as a plot.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::accuracy::{self, Summary};
+use super::arguments::{Arguments, Effort};
+use super::groups::{self, GROUPS, Group};
+use super::plot::{self, Mark, Panel};
+use super::timing::{self, Regime};
+use super::{Kind, Measured, Method, SEED, cases, conditions};
+use crate::support::families::{FAMILIES, Family};
+
+/// What was measured of a method on a family.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    pub family: &'static Family,
+    pub method: &'static str,
+    pub kind: Kind,
+    pub errors: Summary,
+    /// Nanoseconds a test, and how many times the first method's.
+    pub predicted: f64,
+    pub predicted_ratio: f64,
+    pub unpredicted: f64,
+    pub unpredicted_ratio: f64,
+}
+
+/// One precision's part of a report.
+pub struct Part {
+    precision: &'static str,
+    sources: Vec<(&'static str, &'static str)>,
+    rows: Vec<Row>,
+    accuracy_cases: usize,
+}
+
+/// The line that says how far a run is.
+pub fn progress(parts: usize) -> ProgressBar {
+    let bar = ProgressBar::new((parts * FAMILIES.len()) as u64);
+    let template = "{elapsed_precise} {bar:30} {pos}/{len} {msg}";
+    bar.with_style(
+        ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()),
+    )
+}
+
+/// Measures every method on every family. The first method is the one that the others are compared with.
+pub fn measure<V: Measured>(
+    methods: &[Method<V>],
+    full_accuracy_cases: usize,
+    effort: Effort,
+    progress: &ProgressBar,
+) -> Part {
+    let accuracy_cases = effort.cases(full_accuracy_cases);
+    let passes: Vec<_> = methods.iter().map(|method| &*method.pass).collect();
+    let time = |family, regime: Regime| {
+        let regime = effort.regime(regime);
+        timing::medians(&passes, &cases::<V>(family, SEED, regime.cases), regime)
+    };
+    let mut rows = Vec::new();
+    for family in groups::families() {
+        progress.set_message(format!("{}, {}", V::NAME, family.name));
+        let tallies = accuracy::judge(family, methods, accuracy_cases);
+        let predicted = time(family, Regime::PREDICTED);
+        let unpredicted = time(family, Regime::UNPREDICTED);
+        for (index, (method, tally)) in methods.iter().zip(tallies).enumerate() {
+            rows.push(Row {
+                family,
+                method: method.name,
+                kind: method.kind,
+                errors: tally.summary(),
+                predicted: predicted[index],
+                predicted_ratio: predicted[index] / predicted[0],
+                unpredicted: unpredicted[index],
+                unpredicted_ratio: unpredicted[index] / unpredicted[0],
+            });
+        }
+        progress.inc(1);
+    }
+    let sources = methods.iter().map(|method| (method.name, method.source)).collect();
+    Part { precision: V::NAME, sources, rows, accuracy_cases }
+}
+
+/// What a group's families have in common for a method: the mean time, and the worst of the errors.
+#[derive(Clone, Copy, Debug)]
+struct Overall {
+    wrong: f64,
+    worst: f64,
+    correctly_rounded: bool,
+    predicted: f64,
+    unpredicted: f64,
+}
+
+impl Part {
+    fn overall(&self, group: &Group, method: &str) -> Overall {
+        let rows = || {
+            self.rows
+                .iter()
+                .filter(|row| row.method == method && group.families.contains(&row.family.name))
+        };
+        #[expect(clippy::cast_precision_loss, reason = "families are few")]
+        let mean = |value: fn(&Row) -> f64| rows().map(value).sum::<f64>() / rows().count() as f64;
+        Overall {
+            wrong: mean(|row| row.errors.wrong),
+            worst: rows().map(|row| row.errors.worst).fold(f64::NAN, f64::max),
+            correctly_rounded: rows().all(|row| row.errors.correctly_rounded),
+            predicted: mean(|row| row.predicted),
+            unpredicted: mean(|row| row.unpredicted),
+        }
+    }
+
+    fn methods(&self) -> impl Iterator<Item = (&'static str, Kind)> {
+        self.rows.iter().take(self.sources.len()).map(|row| (row.method, row.kind))
+    }
+
+    /// Time against worst error, a panel for each group.
+    fn plot(&self) -> String {
+        let panels: Vec<Panel> = GROUPS
+            .iter()
+            .map(|group| {
+                let marks = self.methods().map(|(method, kind)| {
+                    let overall = self.overall(group, method);
+                    Mark {
+                        label: method,
+                        kind,
+                        nanoseconds: overall.predicted,
+                        ulps: overall.worst,
+                        correctly_rounded: overall.correctly_rounded,
+                        decides_wrongly: overall.wrong > 0.0,
+                    }
+                });
+                Panel { title: group.name, marks: marks.collect() }
+            })
+            .collect();
+        plot::draw(&format!("{} rays and spheres: speed against error", self.precision), &panels)
+    }
+
+    fn markdown(&self, image: &str) -> String {
+        let mut text = format!("## {} inputs\n\n", self.precision);
+        let _ = writeln!(text, "![{}]({image})\n", plot::ALT_TEXT);
+        for (name, source) in &self.sources {
+            let _ = writeln!(text, "- **{name}**: {source}");
+        }
+        let _ = writeln!(
+            text,
+            "\nErrors over {} cases a family.\n\n### Groups of families\n",
+            self.accuracy_cases
+        );
+        let mut table = Table::new(&[
+            "group",
+            "method",
+            "wrong in 10⁶",
+            "worst ulps",
+            "ns",
+            "ratio",
+            "ns unpredicted",
+            "ratio",
+        ]);
+        for group in &GROUPS {
+            let first = self.overall(group, self.sources[0].0);
+            for (method, _) in self.methods() {
+                let overall = self.overall(group, method);
+                table.row([
+                    group.name.into(),
+                    method.into(),
+                    count(overall.wrong),
+                    ulps(overall.worst),
+                    format!("{:.1}", overall.predicted),
+                    format!("{:.2}", overall.predicted / first.predicted),
+                    format!("{:.1}", overall.unpredicted),
+                    format!("{:.2}", overall.unpredicted / first.unpredicted),
+                ]);
+            }
+        }
+        text += &table.to_string();
+        for family in groups::families() {
+            let _ = writeln!(text, "\n### {}: {}\n", family.name, family.description);
+            text += &self.family_table(family).to_string();
+        }
+        text
+    }
+
+    fn family_table(&self, family: &Family) -> Table {
+        let rows = || self.rows.iter().filter(|row| row.family.name == family.name);
+        let any_apart = rows().any(|row| row.errors.apart > 0.0);
+        let any_invalid = rows().any(|row| row.errors.invalid_hits.is_finite());
+        let mut heads = vec![
+            "method",
+            "wrong in 10⁶",
+            "other root in 10⁶",
+            "median ulps",
+            "99 % ulps",
+            "worst ulps",
+            "ns",
+            "ratio",
+            "ns unpredicted",
+            "ratio",
+        ];
+        if any_apart {
+            heads.push("not promised, in 10⁶");
+        }
+        if any_invalid {
+            heads.push("hits on invalid input");
+        }
+        let mut table = Table::new(&heads);
+        for row in rows() {
+            let errors = &row.errors;
+            let mut cells = vec![
+                row.method.into(),
+                count(errors.wrong),
+                count(errors.other_root),
+                ulps(errors.median),
+                ulps(errors.percentile_99),
+                ulps(errors.worst),
+                format!("{:.1}", row.predicted),
+                format!("{:.2}", row.predicted_ratio),
+                format!("{:.1}", row.unpredicted),
+                format!("{:.2}", row.unpredicted_ratio),
+            ];
+            if any_apart {
+                cells.push(count(errors.apart));
+            }
+            if any_invalid {
+                cells.push(format!("{:.1} %", 100.0 * errors.invalid_hits));
+            }
+            table.row(cells);
+        }
+        table
+    }
+
+    fn csv(&self, text: &mut String) {
+        for row in &self.rows {
+            let errors = &row.errors;
+            let _ = writeln!(
+                text,
+                "{},\"{}\",\"{}\",\"{}\",{},{},{},{},{},{},{},{},{:.3},{:.3},{:.3},{:.3}",
+                self.precision,
+                groups::group_of(row.family).name,
+                row.family.name,
+                row.method,
+                errors.wrong,
+                errors.other_root,
+                errors.apart,
+                errors.invalid_hits,
+                errors.median,
+                errors.percentile_99,
+                errors.worst,
+                errors.correctly_rounded,
+                row.predicted,
+                row.predicted_ratio,
+                row.unpredicted,
+                row.unpredicted_ratio,
+            );
+        }
+    }
+}
+
+const CSV_HEAD: &str = "precision,group,family,method,wrong_per_million,other_root_per_million,\
+not_promised_per_million,hits_on_invalid_input,median_ulps,percentile_99_ulps,worst_ulps,correctly_rounded,\
+ns_predicted,ratio_predicted,ns_unpredicted,ratio_unpredicted\n";
+
+/// Prints the report and writes it under cargo's target directory, and to `copies` too where a refresh was asked for.
+pub fn publish(
+    name: &str,
+    introduction: &str,
+    parts: &[Part],
+    arguments: Arguments,
+    copies: Option<&Path>,
+) -> io::Result<()> {
+    let mut markdown = format!("# Speed against error\n\n{introduction}\n\n{}\n\n", explanation());
+    let mut csv = CSV_HEAD.to_owned();
+    let mut files = Vec::new();
+    for part in parts {
+        let image = format!("{}.svg", part.precision);
+        markdown += &part.markdown(&image);
+        markdown.push('\n');
+        part.csv(&mut csv);
+        files.push((image, part.plot()));
+    }
+    println!("{markdown}");
+    files.push((format!("{name}.md"), markdown));
+    files.push((format!("{name}.csv"), csv));
+
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().map(|target| target.join(name));
+    let refreshed = copies.filter(|_| arguments.refresh).map(PathBuf::from);
+    for directory in target.into_iter().chain(refreshed) {
+        fs::create_dir_all(&directory)?;
+        for (file, text) in &files {
+            fs::write(directory.join(file), text)?;
+        }
+        println!("written: {}", directory.display());
+    }
+    Ok(())
+}
+
+fn explanation() -> String {
+    format!(
+        "A test finds the first root ahead of one ray on one sphere. *Wrong*: a hit called a miss, or a miss a hit. \
+*Other root*: an answer nearer to the other root than to the first one ahead. *Ulps*: how far the answer is from the exact \
+root, where there is one and the method found any; ✓ where every answer was the correctly rounded root and no decision \
+was wrong. *ns*: nanoseconds a test where branches are predicted, {predicted} cases over and over; *unpredicted*: {unpredicted} \
+cases, once each a round. Both are medians of rounds in which every method takes its turn, beside their ratio to the first \
+method's. Input that is no ray or no sphere (a NaN, an infinity, a zero direction, a negative radius) is counted apart. \
+The cases are those of the accuracy tests, with the seeds {SEED}, {SEED} + 1 and so on, a thousand cases each; those timed \
+all with {SEED}.\n\nMeasured on {conditions}",
+        predicted = Regime::PREDICTED.cases,
+        unpredicted = Regime::UNPREDICTED.cases,
+        conditions = conditions::line(),
+    )
+}
+
+/// A number in a million.
+fn count(per_million: f64) -> String {
+    if per_million > 0.0 && per_million < 10.0 {
+        format!("{per_million:.1}")
+    } else {
+        format!("{per_million:.0}")
+    }
+}
+
+fn ulps(value: f64) -> String {
+    if value.is_nan() {
+        "–".into()
+    } else if value.is_infinite() {
+        "∞".into()
+    } else if value < 100.0 {
+        format!("{value:.2}")
+    } else if value < 1e5 {
+        format!("{value:.0}")
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+/// A Markdown table, aligned to be read as plain text too.
+struct Table {
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    fn new(heads: &[&str]) -> Self {
+        Self { rows: vec![heads.iter().map(|&head| head.to_owned()).collect()] }
+    }
+
+    fn row(&mut self, cells: impl Into<Vec<String>>) {
+        self.rows.push(cells.into());
+    }
+}
+
+impl std::fmt::Display for Table {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let width = |column: usize| {
+            self.rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0)
+        };
+        let widths: Vec<usize> = (0..self.rows[0].len()).map(width).collect();
+        let is_text = |column: usize| ["method", "group"].contains(&self.rows[0][column].as_str());
+        for (index, row) in self.rows.iter().enumerate() {
+            for (column, cell) in row.iter().enumerate() {
+                let width = widths[column];
+                if is_text(column) {
+                    write!(formatter, "| {cell:width$} ")?;
+                } else {
+                    write!(formatter, "| {cell:>width$} ")?;
+                }
+            }
+            writeln!(formatter, "|")?;
+            if index == 0 {
+                for (column, &width) in widths.iter().enumerate() {
+                    let dashes = "-".repeat(width);
+                    write!(
+                        formatter,
+                        "|{}",
+                        if is_text(column) { format!(":{dashes}-") } else { format!("-{dashes}:") }
+                    )?;
+                }
+                writeln!(formatter, "|")?;
+            }
+        }
+        Ok(())
+    }
+}

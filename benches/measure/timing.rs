@@ -1,0 +1,62 @@
+//! Times of methods that take turns.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use super::Measured;
+use crate::support::families::Case;
+
+/// Goes through all of the cases, with what is timed inlined into its loop.
+pub type Pass<V> = dyn Fn(&[Case<V>]) + Sync;
+
+/// How cases are gone through.
+#[derive(Clone, Copy, Debug)]
+pub struct Regime {
+    pub cases: usize,
+    /// Passes of a method's turn before those that are timed.
+    pub warm_up: u32,
+    /// Passes of a method's turn that are timed.
+    pub timed: u32,
+    /// Turns of each method.
+    pub rounds: usize,
+}
+
+impl Regime {
+    /// Few cases over and over: the branch predictor has learned them after about 60 passes.
+    pub const PREDICTED: Self = Self { cases: 4096, warm_up: 60, timed: 8, rounds: 9 };
+    /// More cases than a branch predictor can learn, each new to it.
+    pub const UNPREDICTED: Self = Self { cases: 65_536, warm_up: 0, timed: 1, rounds: 15 };
+
+    /// The same, for a first impression.
+    #[must_use]
+    pub fn quick(self) -> Self {
+        Self { warm_up: self.warm_up / 4, timed: self.timed.div_ceil(4), rounds: 3, ..self }
+    }
+
+    /// Only to see that it runs.
+    pub const SMALLEST: Self = Self { cases: 64, warm_up: 0, timed: 1, rounds: 1 };
+}
+
+/// The nanoseconds that each pass takes for a case: the median of rounds in each of which every one takes its turn.
+pub fn medians<V: Measured>(passes: &[&Pass<V>], cases: &[Case<V>], regime: Regime) -> Vec<f64> {
+    let mut times = vec![Vec::with_capacity(regime.rounds); passes.len()];
+    for _ in 0..regime.rounds {
+        for (pass, times) in passes.iter().zip(&mut times) {
+            for _ in 0..regime.warm_up {
+                pass(black_box(cases));
+            }
+            let start = Instant::now();
+            for _ in 0..regime.timed {
+                pass(black_box(cases));
+            }
+            times.push(start.elapsed().as_secs_f64() * 1e9 / f64::from(regime.timed));
+        }
+    }
+    #[expect(clippy::cast_precision_loss, reason = "cases are few")]
+    times.into_iter().map(|times| median(times) / cases.len() as f64).collect()
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}

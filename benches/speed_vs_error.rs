@@ -1,0 +1,141 @@
+//! Speed against error: every published method and eyeray's, on every family of cases.
+//!
+//! ```text
+//! cargo bench --bench speed_vs_error                  # in under ten minutes
+//! cargo bench --bench speed_vs_error -- --quick       # for a first impression, in under one
+//! cargo bench --bench speed_vs_error -- --refresh     # also writes the copies in benches/report/, which the README shows
+//! ```
+//!
+//! The report is printed and written to `target/speed_vs_error/`: Markdown, CSV, and a plot for each precision.
+
+use std::io;
+use std::path::Path;
+
+use eyeray::{Algebraic, Geometric, Hittable};
+use glam::{DVec3, Vec3};
+
+mod measure;
+mod methods;
+#[path = "../tests/support/mod.rs"]
+mod support;
+
+use measure::arguments::{Arguments, Effort};
+use measure::{Kind, Method, report};
+use methods::{narrowed, widened};
+
+/// Cases of a family in f32 and in f64, whose exact answers take longer.
+const ACCURACY_CASES: [usize; 2] = [1_000_000, 250_000];
+
+macro_rules! methods_of {
+    ($function:ident, $module:ident, $vector:ident, $float:ident) => {
+        fn $function() -> Vec<Method<$vector>> {
+            use methods::$module::{ahead, embree, geometric, haines, pbrt, stable, textbook};
+
+            const ALL: std::ops::Range<$float> = 0.0..$float::INFINITY;
+            let plain = Kind::Plain;
+            vec![
+                Method::new(
+                    "textbook",
+                    "the lecture's algebraic form; S. Marschner, CS4620 lecture 6",
+                    plain,
+                    |ray, sphere| ahead(textbook(ray, sphere)),
+                ),
+                Method::new(
+                    "geometric",
+                    "the lecture's geometric form, the direction normalized first; the same",
+                    plain,
+                    |ray, sphere| ahead(geometric(ray, sphere)),
+                ),
+                Method::new(
+                    "stable",
+                    "the stable quadratic; W. Press et al., *Numerical Recipes*, §5.6",
+                    plain,
+                    |ray, sphere| ahead(stable(ray, sphere)),
+                ),
+                Method::new(
+                    "Haines",
+                    "E. Haines, J. Günther, T. Akenine-Möller, Ray Tracing Gems, chapter 7",
+                    plain,
+                    |ray, sphere| ahead(haines(ray, sphere)),
+                ),
+                Method::new(
+                    "pbrt-v4",
+                    "(r + l)(r - l) for the discriminant; M. Pharr, W. Jakob, G. Humphreys, *PBRT* 4e, §6.8.3, without \
+                     its intervals",
+                    plain,
+                    |ray, sphere| ahead(pbrt(ray, sphere)),
+                ),
+                Method::new(
+                    "Embree",
+                    "the closest approach; Embree 4, `sphere_intersector.h`",
+                    plain,
+                    |ray, sphere| ahead(embree(ray, sphere)),
+                ),
+                Method::new("eyeray algebraic", "`Algebraic`", Kind::Eyeray, |ray, sphere| {
+                    Algebraic(*sphere).intersect(ray, ALL).map(|hit| hit.t)
+                }),
+                Method::new("eyeray geometric", "`Geometric`", Kind::Eyeray, |ray, sphere| {
+                    Geometric(*sphere).intersect(ray, ALL).map(|hit| hit.t)
+                }),
+                Method::new("eyeray", "`Sphere::intersect`", Kind::Eyeray, |ray, sphere| {
+                    sphere.intersect(ray, ALL).map(|hit| hit.t)
+                }),
+            ]
+        }
+    };
+}
+
+methods_of!(plain_f32, single, Vec3, f32);
+methods_of!(plain_f64, double, DVec3, f64);
+
+fn methods_f32() -> Vec<Method<Vec3>> {
+    use methods::double::{ahead, stable, textbook};
+
+    let mut methods = plain_f32();
+    let widened_ones = [
+        Method::new(
+            "textbook f64",
+            "the textbook in f64 on f32 inputs, rounded once",
+            Kind::Widened,
+            |ray, sphere| {
+                let (ray, sphere) = widened(ray, sphere);
+                ahead(textbook(&ray, &sphere)).map(narrowed)
+            },
+        ),
+        Method::new(
+            "stable f64",
+            "the stable quadratic in f64 on f32 inputs, rounded once",
+            Kind::Widened,
+            |ray, sphere| {
+                let (ray, sphere) = widened(ray, sphere);
+                ahead(stable(&ray, &sphere)).map(narrowed)
+            },
+        ),
+    ];
+    let ours = methods.iter().position(|method| method.kind == Kind::Eyeray);
+    let at = ours.unwrap_or(methods.len());
+    methods.splice(at..at, widened_ones);
+    methods
+}
+
+fn main() -> io::Result<()> {
+    let arguments = Arguments::read("cargo bench --bench speed_vs_error", true);
+    let effort = arguments.effort;
+    let progress = report::progress(2);
+    let parts = [
+        report::measure(&methods_f32(), ACCURACY_CASES[0], effort, &progress),
+        report::measure(&plain_f64(), ACCURACY_CASES[1], effort, &progress),
+    ];
+    progress.finish_and_clear();
+    if effort == Effort::Test {
+        return Ok(());
+    }
+    let copies = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/report");
+    report::publish(
+        "speed_vs_error",
+        "By `cargo bench --bench speed_vs_error`.",
+        &parts,
+        arguments,
+        Some(&copies),
+    )
+}
