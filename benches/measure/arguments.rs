@@ -28,7 +28,7 @@ impl Effort {
     pub fn cases(self, full: usize) -> usize {
         match self {
             Self::Full => full,
-            Self::Quick => full / 25,
+            Self::Quick => full / 50,
             Self::Test => 20,
         }
     }

@@ -3,6 +3,7 @@
 
 pub mod accuracy;
 pub mod arguments;
+pub mod comparison;
 pub mod conditions;
 pub mod groups;
 pub mod plot;
@@ -13,6 +14,7 @@ use std::hint::black_box;
 
 use eyeray::{Ray, Scalar, Sphere};
 
+use self::timing::Pass;
 use crate::support::families::{Case, Family, Precision, Rng};
 use crate::support::oracle::Coordinates;
 
@@ -73,7 +75,7 @@ pub struct Method<V: Measured> {
     /// Whether it promises an answer; `inside` says whether the exact line enters behind the origin and leaves ahead.
     pub promises: fn(&Case<V>, inside: bool) -> bool,
     pub nearest: Box<Nearest<V>>,
-    pub pass: Box<timing::Pass<V>>,
+    pub pass: Pass<V>,
 }
 
 impl<V: Measured> Method<V> {
@@ -89,9 +91,7 @@ impl<V: Measured> Method<V> {
             kind,
             promises: |_, _| true,
             nearest: Box::new(move |(ray, sphere)| nearest(ray, sphere)),
-            pass: Box::new(sum_of(move |ray, sphere| {
-                nearest(ray, sphere).unwrap_or(V::Scalar::ZERO)
-            })),
+            pass: sum_of(move |ray, sphere| nearest(ray, sphere).unwrap_or(V::Scalar::ZERO)),
         }
     }
 
@@ -104,13 +104,24 @@ impl<V: Measured> Method<V> {
 
 /// A pass over cases that adds up what a test returns, so that nothing of it is left out.
 pub fn sum_of<V: Measured>(
-    test: impl Fn(&Ray<V>, &Sphere<V>) -> V::Scalar + Sync,
-) -> impl Fn(&[Case<V>]) + Sync {
-    move |cases| {
+    test: impl Fn(&Ray<V>, &Sphere<V>) -> V::Scalar + Sync + 'static,
+) -> Pass<V> {
+    Box::new(move |cases| {
         let mut sum = V::Scalar::ZERO;
         for (ray, sphere) in cases {
             sum = sum + test(ray, sphere);
         }
         black_box(sum);
-    }
+    })
+}
+
+/// A pass over cases that has all that a test returns stored.
+pub fn stored_of<V: Measured, T>(
+    test: impl Fn(&Ray<V>, &Sphere<V>) -> T + Sync + 'static,
+) -> Pass<V> {
+    Box::new(move |cases| {
+        for (ray, sphere) in cases {
+            black_box(test(ray, sphere));
+        }
+    })
 }

@@ -40,8 +40,10 @@ const PANEL_HEIGHT: f64 = 270.0;
 const LEFT: f64 = 58.0;
 const GAP: f64 = 60.0;
 const ROW_HEIGHT: f64 = PANEL_HEIGHT + 64.0;
+/// The power of ten of the ulps at which the axis ends. What is beyond stands there too.
+const WORST: i32 = 12;
 /// The height of the band for what is correctly rounded.
-const BAND: f64 = 48.0;
+const BAND: f64 = 62.0;
 
 const FONT_SIZE: f64 = 11.0;
 const LETTER_WIDTH: f64 = 5.9;
@@ -51,18 +53,20 @@ const MARK_RADIUS: f64 = 4.5;
 const STYLE: &str = "
   text { font: 11px system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', sans-serif; fill: #24292f }
   .title { font-size: 13px; font-weight: 600 } .end { text-anchor: end } .middle { text-anchor: middle }
-  .mark { stroke-width: 1.5 } text.plain, text.widened, text.eyeray { stroke: none }
+  .mark { stroke-width: 1.5 } .name { paint-order: stroke; stroke-width: 3; stroke-linejoin: round }
   .front { fill: none; stroke-width: 1.5; stroke-dasharray: 5 3 } .leader { stroke-width: 0.7 } .frame { fill: none }
   .paper { fill: #ffffff } .band { fill: #e6f4ea } .grid { stroke: #d8dee4 }
   .front, .frame, .leader { stroke: #8c959f }
   .plain { fill: #9a6700; stroke: #9a6700 } .widened { fill: #0969da; stroke: #0969da }
   .eyeray { fill: #1a7f37; stroke: #1a7f37 } .mark.wrong { fill: #ffffff }
+  .name { stroke: #ffffff }
   @media (prefers-color-scheme: dark) {
     text { fill: #e6edf3 }
     .paper { fill: #0d1117 } .band { fill: #12261e } .grid { stroke: #30363d }
     .front, .frame, .leader { stroke: #7d8590 }
     .plain { fill: #d29922; stroke: #d29922 } .widened { fill: #58a6ff; stroke: #58a6ff }
     .eyeray { fill: #3fb950; stroke: #3fb950 } .mark.wrong { fill: #0d1117 }
+    .name { stroke: #0d1117 }
   }
 ";
 
@@ -91,73 +95,68 @@ impl Area {
     }
 }
 
-/// The axes that all panels share.
-struct Axes {
-    /// The logarithms of the nanoseconds at the left and at the right.
-    time: (f64, f64),
-    /// The logarithms of the ulps at the lower and at the upper end.
-    error: (f64, f64),
+/// The time axis that all panels share: the logarithms of the nanoseconds at the left and at the right.
+struct TimeAxis {
+    left: f64,
+    right: f64,
 }
 
-impl Axes {
+impl TimeAxis {
     fn new(panels: &[Panel]) -> Self {
-        let marks = || panels.iter().flat_map(|panel| &panel.marks);
-        let times = || marks().map(|mark| mark.nanoseconds.log10());
-        let errors = marks().map(|mark| mark.ulps).filter(|ulps| ulps.is_finite());
-        let worst = errors.fold(1.0, f64::max).log10();
-        let time = (
-            times().fold(f64::INFINITY, f64::min) - 0.12,
-            times().fold(f64::NEG_INFINITY, f64::max) + 0.25,
-        );
-        Self { time, error: (-0.6, worst.min(20.0) + 0.8) }
+        let times =
+            || panels.iter().flat_map(|panel| &panel.marks).map(|mark| mark.nanoseconds.log10());
+        Self {
+            left: times().fold(f64::INFINITY, f64::min) - 0.15,
+            right: times().fold(f64::NEG_INFINITY, f64::max) + 0.15,
+        }
     }
 
     fn x(&self, nanoseconds: f64) -> f64 {
-        PANEL_WIDTH * (nanoseconds.log10() - self.time.0) / (self.time.1 - self.time.0)
-    }
-
-    /// Above the band. What is beyond the axis is at its end.
-    fn y(&self, ulps: f64) -> f64 {
-        let (low, high) = self.error;
-        let part = (ulps.log10().clamp(low + 0.15, high - 0.4) - low) / (high - low);
-        (PANEL_HEIGHT - BAND) * (1.0 - part)
+        PANEL_WIDTH * (nanoseconds.log10() - self.left) / (self.right - self.left)
     }
 
     fn place(&self, mark: &Mark) -> (f64, f64) {
         let y = if mark.correctly_rounded || mark.ulps.is_nan() {
-            PANEL_HEIGHT - BAND / 2.0
+            PANEL_HEIGHT - BAND / 2.0 - 3.0
         } else {
-            self.y(mark.ulps)
+            error_y(mark.ulps)
         };
         (self.x(mark.nanoseconds), y)
     }
+}
+
+/// Where so many ulps are, above the band.
+fn error_y(ulps: f64) -> f64 {
+    let (least, worst) = (-0.8, f64::from(WORST) + 0.6);
+    let part = (ulps.log10().clamp(-0.5, f64::from(WORST)) - least) / (worst - least);
+    (PANEL_HEIGHT - BAND) * (1.0 - part)
 }
 
 /// The picture of the panels.
 pub fn draw(title: &str, panels: &[Panel]) -> String {
     #[expect(clippy::cast_precision_loss, reason = "panels are few")]
     let height = HEAD + ROW_HEIGHT * panels.len().div_ceil(COLUMNS) as f64 + FOOT - 20.0;
-    let axes = Axes::new(panels);
+    let axis = TimeAxis::new(panels);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" height=\"{height}\" \
 role=\"img\">\n<title>{title}</title>\n<desc>{ALT_TEXT}</desc>\n<style>{STYLE}</style>\n\
 <rect class=\"paper\" width=\"{WIDTH}\" height=\"{height}\" rx=\"8\"/>\n\
 <text class=\"title\" x=\"{LEFT}\" y=\"24\">{title}</text>\n"
     );
-    legend(&mut svg);
+    legend(&mut svg, panels);
     for (index, panel) in panels.iter().enumerate() {
         #[expect(clippy::cast_precision_loss, reason = "panels are few")]
         let (column, row) = ((index % COLUMNS) as f64, (index / COLUMNS) as f64);
         let (x, y) = (LEFT + column * (PANEL_WIDTH + GAP), HEAD + 22.0 + row * ROW_HEIGHT);
         let _ = writeln!(svg, "<g transform=\"translate({x} {y})\">");
-        draw_panel(&mut svg, panel, &axes);
+        draw_panel(&mut svg, panel, &axis);
         svg += "</g>\n";
     }
     svg += "</svg>\n";
     svg
 }
 
-fn legend(svg: &mut String) {
+fn legend(svg: &mut String, panels: &[Panel]) {
     let entries = [
         (Kind::Plain, false, "in the inputs' precision"),
         (Kind::Widened, false, "in f64 on f32 inputs"),
@@ -165,7 +164,8 @@ fn legend(svg: &mut String) {
         (Kind::Plain, true, "hollow: some hits or misses wrong"),
     ];
     let mut x = LEFT + MARK_RADIUS;
-    for (kind, hollow, text) in entries {
+    let used = |kind| panels.iter().flat_map(|panel| &panel.marks).any(|mark| mark.kind == kind);
+    for (kind, hollow, text) in entries.into_iter().filter(|entry| used(entry.0)) {
         symbol(svg, (x, 42.0), kind, hollow);
         let _ = writeln!(svg, "<text x=\"{:.0}\" y=\"46\">{text}</text>", x + 10.0);
         x += 34.0 + LETTER_WIDTH * letters(text);
@@ -177,7 +177,7 @@ fn legend(svg: &mut String) {
     );
 }
 
-fn draw_panel(svg: &mut String, panel: &Panel, axes: &Axes) {
+fn draw_panel(svg: &mut String, panel: &Panel, axis: &TimeAxis) {
     let band_top = PANEL_HEIGHT - BAND;
     let _ = writeln!(
         svg,
@@ -185,7 +185,7 @@ fn draw_panel(svg: &mut String, panel: &Panel, axes: &Axes) {
 <rect class=\"band\" y=\"{band_top}\" width=\"{PANEL_WIDTH}\" height=\"{BAND}\"/>",
         panel.title
     );
-    draw_axes(svg, axes);
+    draw_axes(svg, axis);
     let _ = writeln!(
         svg,
         "<rect class=\"frame\" width=\"{PANEL_WIDTH}\" height=\"{PANEL_HEIGHT}\"/>\n\
@@ -193,7 +193,7 @@ fn draw_panel(svg: &mut String, panel: &Panel, axes: &Axes) {
         PANEL_HEIGHT - 5.0
     );
 
-    let places: Vec<_> = panel.marks.iter().map(|mark| axes.place(mark)).collect();
+    let places: Vec<_> = panel.marks.iter().map(|mark| axis.place(mark)).collect();
     let front: Vec<String> =
         front(&places).into_iter().map(|(x, y)| format!("{x:.1} {y:.1}")).collect();
     let _ = writeln!(svg, "<path class=\"front\" d=\"M{}\"/>", front.join("L"));
@@ -219,12 +219,12 @@ fn draw_panel(svg: &mut String, panel: &Panel, axes: &Axes) {
     }
 }
 
-fn draw_axes(svg: &mut String, axes: &Axes) {
+fn draw_axes(svg: &mut String, axis: &TimeAxis) {
     let band_top = PANEL_HEIGHT - BAND;
     for nanoseconds in
         (0..5).flat_map(|power| [1, 2, 5].map(|digit| f64::from(digit) * 10_f64.powi(power)))
     {
-        let x = axes.x(nanoseconds);
+        let x = axis.x(nanoseconds);
         if (0.0..=PANEL_WIDTH).contains(&x) {
             let _ = writeln!(
                 svg,
@@ -241,14 +241,13 @@ fn draw_axes(svg: &mut String, axes: &Axes) {
         PANEL_HEIGHT + 30.0
     );
 
-    let step = if axes.error.1 > 12.0 { 4 } else { 2 };
-    let powers = (0..=20).step_by(step).take_while(|&power| f64::from(power) < axes.error.1 - 0.2);
-    let ticks = powers.map(|power| {
-        let name = if power == 0 { "1".into() } else { format!("10{}", superscript(power)) };
-        (10_f64.powi(power), name)
-    });
-    for (ulps, name) in ticks {
-        let y = axes.y(ulps);
+    for power in (0..=WORST).step_by(2) {
+        let name = match power {
+            0 => "1".into(),
+            WORST => format!("≥10{}", superscript(power)),
+            _ => format!("10{}", superscript(power)),
+        };
+        let y = error_y(10_f64.powi(power));
         let _ = writeln!(
             svg,
             "<path class=\"grid\" d=\"M0 {y:.1}H{PANEL_WIDTH}\"/>\
@@ -258,7 +257,7 @@ fn draw_axes(svg: &mut String, axes: &Axes) {
     }
     let _ = writeln!(
         svg,
-        "<text class=\"middle\" transform=\"translate(-36 {:.0}) rotate(-90)\">worst error in ulps</text>",
+        "<text class=\"middle\" transform=\"translate(-38 {:.0}) rotate(-90)\">worst error in ulps</text>",
         band_top / 2.0
     );
 }
@@ -348,7 +347,7 @@ fn name_mark(svg: &mut String, mark: &Mark, (x, y): (f64, f64), taken: &mut Vec<
     taken.push(area);
     let _ = writeln!(
         svg,
-        "<text class=\"{}\" x=\"{:.1}\" y=\"{:.1}\">{}</text>",
+        "<text class=\"{} name\" x=\"{:.1}\" y=\"{:.1}\">{}</text>",
         class(mark.kind),
         area.left,
         area.top + height - 2.5,

@@ -53,7 +53,7 @@ pub fn measure<V: Measured>(
     progress: &ProgressBar,
 ) -> Part {
     let accuracy_cases = effort.cases(full_accuracy_cases);
-    let passes: Vec<_> = methods.iter().map(|method| &*method.pass).collect();
+    let passes: Vec<_> = methods.iter().map(|method| &method.pass).collect();
     let time = |family, regime: Regime| {
         let regime = effort.regime(regime);
         timing::medians(&passes, &cases::<V>(family, SEED, regime.cases), regime)
@@ -334,16 +334,16 @@ fn ulps(value: f64) -> String {
 }
 
 /// A Markdown table, aligned to be read as plain text too.
-struct Table {
+pub struct Table {
     rows: Vec<Vec<String>>,
 }
 
 impl Table {
-    fn new(heads: &[&str]) -> Self {
+    pub fn new(heads: &[&str]) -> Self {
         Self { rows: vec![heads.iter().map(|&head| head.to_owned()).collect()] }
     }
 
-    fn row(&mut self, cells: impl Into<Vec<String>>) {
+    pub fn row(&mut self, cells: impl Into<Vec<String>>) {
         self.rows.push(cells.into());
     }
 }
@@ -354,7 +354,9 @@ impl std::fmt::Display for Table {
             self.rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0)
         };
         let widths: Vec<usize> = (0..self.rows[0].len()).map(width).collect();
-        let is_text = |column: usize| ["method", "group"].contains(&self.rows[0][column].as_str());
+        let is_text = |column: usize| {
+            ["method", "group", "what", "compared with"].contains(&self.rows[0][column].as_str())
+        };
         for (index, row) in self.rows.iter().enumerate() {
             for (column, cell) in row.iter().enumerate() {
                 let width = widths[column];

@@ -1,13 +1,13 @@
 //! Times of methods that take turns.
 
 use std::hint::black_box;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::Measured;
 use crate::support::families::Case;
 
 /// Goes through all of the cases, with what is timed inlined into its loop.
-pub type Pass<V> = dyn Fn(&[Case<V>]) + Sync;
+pub type Pass<V> = Box<dyn Fn(&[Case<V>]) + Sync>;
 
 /// How cases are gone through.
 #[derive(Clone, Copy, Debug)]
@@ -23,37 +23,47 @@ pub struct Regime {
 
 impl Regime {
     /// Few cases over and over: the branch predictor has learned them after about 60 passes.
-    pub const PREDICTED: Self = Self { cases: 4096, warm_up: 60, timed: 8, rounds: 9 };
-    /// More cases than a branch predictor can learn, each new to it.
-    pub const UNPREDICTED: Self = Self { cases: 65_536, warm_up: 0, timed: 1, rounds: 15 };
+    pub const PREDICTED: Self = Self { cases: 4096, warm_up: 60, timed: 8, rounds: 15 };
+    /// More cases than a branch predictor can learn, each of them once in a turn.
+    pub const UNPREDICTED: Self = Self { cases: 32_768, warm_up: 0, timed: 1, rounds: 11 };
+    /// Only to see that it runs.
+    pub const SMALLEST: Self = Self { cases: 64, warm_up: 0, timed: 1, rounds: 1 };
 
     /// The same, for a first impression.
     #[must_use]
     pub fn quick(self) -> Self {
-        Self { warm_up: self.warm_up / 4, timed: self.timed.div_ceil(4), rounds: 3, ..self }
+        Self { cases: self.cases.min(8192), rounds: 3, ..self }
     }
-
-    /// Only to see that it runs.
-    pub const SMALLEST: Self = Self { cases: 64, warm_up: 0, timed: 1, rounds: 1 };
 }
+
+/// Passes end after this time, before as while they are timed: of what is so slow, branches are the least.
+const LONG: Duration = Duration::from_millis(3);
 
 /// The nanoseconds that each pass takes for a case: the median of rounds in each of which every one takes its turn.
 pub fn medians<V: Measured>(passes: &[&Pass<V>], cases: &[Case<V>], regime: Regime) -> Vec<f64> {
     let mut times = vec![Vec::with_capacity(regime.rounds); passes.len()];
     for _ in 0..regime.rounds {
         for (pass, times) in passes.iter().zip(&mut times) {
-            for _ in 0..regime.warm_up {
-                pass(black_box(cases));
-            }
-            let start = Instant::now();
-            for _ in 0..regime.timed {
-                pass(black_box(cases));
-            }
-            times.push(start.elapsed().as_secs_f64() * 1e9 / f64::from(regime.timed));
+            repeat(pass, cases, regime.warm_up);
+            let (passes, time) = repeat(pass, cases, regime.timed);
+            times.push(time.as_secs_f64() * 1e9 / f64::from(passes));
         }
     }
     #[expect(clippy::cast_precision_loss, reason = "cases are few")]
     times.into_iter().map(|times| median(times) / cases.len() as f64).collect()
+}
+
+/// Goes through the cases so many times, or fewer if that takes long. Returns how many times, and how long it took.
+fn repeat<V: Measured>(pass: &Pass<V>, cases: &[Case<V>], times: u32) -> (u32, Duration) {
+    let start = Instant::now();
+    for done in 0..times {
+        let elapsed = start.elapsed();
+        if done > 0 && elapsed > LONG {
+            return (done, elapsed);
+        }
+        pass(black_box(cases));
+    }
+    (times, start.elapsed())
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
