@@ -44,7 +44,10 @@
 //! - `libm`: for `no_std`, square roots from the [libm](https://docs.rs/libm) crate. One of `std` and `libm` is needed.
 //! - `alloc`: `Spheres`, and [`Hittable`] for boxes.
 #![cfg_attr(not(feature = "std"), no_std)]
-#![cfg_attr(not(feature = "bytemuck"), forbid(unsafe_code))]
+#![cfg_attr(
+    not(any(feature = "bytemuck", all(feature = "std", target_arch = "x86_64"))),
+    forbid(unsafe_code)
+)]
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!(
@@ -74,6 +77,8 @@ mod refine;
 mod second_try;
 mod single;
 mod sphere;
+#[cfg(feature = "alloc")]
+mod spheres;
 mod vector;
 mod view_rect;
 
@@ -85,6 +90,11 @@ pub use hit::Hit;
 pub use hittable::{Hittable, nearest};
 pub use ray::Ray;
 pub use sphere::Sphere;
+#[cfg(feature = "alloc")]
+#[doc(hidden)]
+pub use spheres::Lanes;
+#[cfg(feature = "alloc")]
+pub use spheres::Spheres;
 pub use vector::{Scalar, Vector};
 pub use view_rect::ViewRect;
 
