@@ -20,7 +20,7 @@ use crate::{Ray, Vector};
 ///     assert!(hit.front_face(&ray));
 ///
 ///     // A mirror image of the ray leaves for good: nothing to tune.
-///     let reflected = hit.spawn(ray.direction - 2.0 * ray.direction.dot(hit.normal) * hit.normal);
+///     let reflected = hit.spawn(ray.direction.reflect(hit.normal));
 ///     assert!(sphere.intersect(&reflected, 0.0..f32::INFINITY).is_none());
 /// }
 /// ```
@@ -31,7 +31,7 @@ pub struct Hit<V: Vector = glam::Vec3> {
     pub t: V::Scalar,
     /// The point of the surface.
     pub point: V,
-    /// The outward unit normal there.
+    /// The outward unit normal there, whichever side the ray comes from.
     pub normal: V,
     /// How far along the normal a spawned ray starts from `point`.
     pub(crate) clearance: V::Scalar,

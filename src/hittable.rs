@@ -6,6 +6,9 @@ use crate::{Hit, Ray, Vector};
 
 /// Anything that a ray can meet: one sphere, or many, or a shape of your own.
 ///
+/// A range is half open, as everywhere in Rust, and counts in lengths of the ray's direction. Whatever the range, only
+/// `t` > 0 is a hit. `0.0..f32::INFINITY` is the whole half line; a range that is empty, or has a NaN, holds nothing.
+///
 /// ```
 /// use eyeray::{Hittable, Ray, Sphere};
 /// use glam::{Vec3, vec3};
@@ -22,11 +25,8 @@ use crate::{Hit, Ray, Vector};
 /// // A shadow ray asks only whether anything is in the way, here of a lamp at t = 1.
 /// assert!(!scene.occludes(&ray, 0.0..1.0));
 /// ```
-///
-/// A range is half open, as everywhere in Rust, and counts in lengths of the ray's direction. Whatever the range, only
-/// `t` > 0 is a hit. `0.0..f32::INFINITY` is the whole half line; a range that is empty, or has a NaN, holds nothing.
 pub trait Hittable<V: Vector = glam::Vec3> {
-    /// The nearest hit with `t` in `range`, or `None`.
+    /// The nearest hit whose `t`, as it is returned, is above 0 and in `range`; `None` if there is none.
     fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>>;
 
     /// Whether anything is hit with `t` in `range`: what a shadow ray asks.
@@ -81,10 +81,11 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
 /// use eyeray::{Ray, Sphere, nearest};
 /// use glam::{Vec3, vec3};
 ///
-/// let spheres = [Sphere::new(vec3(0.0, 0.0, -9.0), 1.0), Sphere::new(vec3(0.0, 0.0, -3.0), 1.0)];
+/// let far = Sphere::new(vec3(0.0, 0.0, -9.0), 1.0);
+/// let near = Sphere::new(vec3(0.0, 0.0, -3.0), 1.0);
 /// let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
 ///
-/// let found = nearest(&spheres, &ray, 0.0..f32::INFINITY);
+/// let found = nearest(&[far, near], &ray, 0.0..f32::INFINITY);
 /// assert_eq!(found.map(|(index, hit)| (index, hit.t)), Some((1, 2.0)));
 /// ```
 pub fn nearest<V: Vector, H: Hittable<V>>(

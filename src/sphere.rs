@@ -10,7 +10,7 @@ use crate::arithmetic::rounding::RoundDown;
 use crate::geometric::ClosestApproach;
 use crate::{Hit, Hittable, Ray, Vector};
 
-/// A sphere.
+/// A sphere, whose hits are decided exactly and whose roots are correctly rounded.
 ///
 /// ```
 /// use eyeray::{Hittable, Ray, Sphere};
@@ -29,28 +29,30 @@ use crate::{Hit, Hittable, Ray, Vector};
 ///
 /// For all finite values of a ray's and a sphere's fields, with t for the exact real root of those values as they are:
 ///
-/// 1. With [`Vec3`](glam::Vec3), each root is t rounded to the nearest `f32`, ties to even; beyond the largest it is infinite,
-///    and below the normal ones it is rounded gradually. So [`Algebraic`](crate::Algebraic) and
-///    [`Geometric`](crate::Geometric) give the same bits, on every machine, with fused multiply-add or without.
-/// 2. With [`DVec3`](glam::DVec3), each root is within 1 ulp of t. With both, hit or miss is never wrong.
+/// 1. Hit or miss is never wrong.
+/// 2. With [`Vec3`](glam::Vec3), each root is t rounded to the nearest `f32`, ties to even: beyond the largest it is infinite,
+///    and below the smallest normal one it is rounded to a subnormal number likewise. So [`Algebraic`](crate::Algebraic) and
+///    [`Geometric`](crate::Geometric) give the same roots, bit for bit, on every machine, with fused multiply-add or without.
+///    With [`DVec3`](glam::DVec3), each root is within 1 ulp of t.
 /// 3. A line that touches the sphere hits it, with two equal roots. A sphere of radius 0 is hit exactly if the line goes
 ///    through its center.
-/// 4. A NaN or an infinity in the ray or the sphere, a zero direction or a negative radius is `None`. Nothing panics, and
+/// 4. A NaN or an infinity in the ray or the sphere, a zero direction or a negative radius gives `None`. Nothing panics, and
 ///    no result is NaN.
 /// 5. The direction need not be unit, and t counts in its lengths: of 2ᵏ times the direction, t is 2⁻ᵏ times as large,
 ///    exactly.
 /// 6. A ray is a half line: what is hit is the smallest root that, as returned, is finite, above 0 and in the range.
-/// 7. [`Hit::point`] is within 1.5 ulp (with `DVec3` 4) of where the exact line meets the sphere, coordinate by coordinate,
+/// 7. [`Hit::point`] is within 1.5 ulp (4 with `DVec3`) of where the exact line meets the sphere, coordinate by coordinate,
 ///    an ulp being that of the larger of the coordinate and |center| + radius. [`Hit::normal`] is within 2 ulp of 1 of the
 ///    outward unit normal there. At radius 0, where there is none, it points back along the ray.
-/// 8. A ray of [`Hit::spawn`] never meets the surface that it leaves.
+/// 8. A ray of [`Hit::spawn`] never meets the surface that it leaves, if the radius is at least 1,000 ulp of the sphere's
+///    coordinates.
 ///
 /// # How
 ///
-/// Each derivation, [`Algebraic`](crate::Algebraic) and [`Geometric`](crate::Geometric), is first carried out in `f64`, with
-/// a bound on its error. Where that decides the hit and both ends of the interval around the root round to the same `f32`
-/// (Ziv's test), that is the answer. Otherwise the derivation is carried out again in pairs of `f64`; and where pairs cannot
-/// tell either, in integers, exactly.
+/// Each derivation, [`Algebraic`](crate::Algebraic) and [`Geometric`](crate::Geometric), is carried out in `f64`, with a bound
+/// on its error. Where that decides the hit, and both ends of the interval around the root round to the same `f32` (Ziv's
+/// test), that is the answer. What is left is tried again by the geometric derivation: in `f64` with the error of the very
+/// case, then in pairs of `f64`, and where pairs cannot tell either, in integers, exactly.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C)]
