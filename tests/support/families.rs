@@ -93,6 +93,11 @@ pub const FAMILIES: &[Family] = &[
     family!("exact tie", exact_tie, "a root exactly midway between two floats"),
     family!("near tie", near_tie, "a root closer to midway than any fixed precision tells"),
     family!(
+        "hard to round",
+        hard_to_round,
+        "a root near midway between two f32, of coordinates that chance gave"
+    ),
+    family!(
         "point sphere",
         point_sphere,
         "radius 0, the line exactly through the center or an ulp off"
@@ -555,6 +560,51 @@ fn exact_tie<V: Precision>(rng: &mut Rng) -> Case<V> {
 fn near_tie<V: Precision>(rng: &mut Rng) -> Case<V> {
     let off_plane = rng.magnitude(V::either(1e-18, 1e-150), 1e-2);
     tie(rng, off_plane)
+}
+
+/// In a plane, a line and a circle with the coordinates that chance gives; then the center is moved off that plane so far
+/// that a root, as near as the digits of this way allow, is midway between two single-precision floats.
+fn hard_to_round<V: Precision>(rng: &mut Rng) -> Case<V> {
+    /// Of a single-precision float, in the bits of a double-precision one.
+    const HALF_ULP: u64 = 1 << 28;
+
+    loop {
+        let mut vector =
+            |low, high| DVec3::new(rng.uniform(low, high), rng.uniform(low, high), 0.0);
+        let (origin, direction, center) = (vector(-4.0, 4.0), vector(-1.0, 1.0), vector(-4.0, 4.0));
+        let radius = rng.magnitude(0.1, 4.0);
+        let (mut ray, mut sphere) = Scene { origin, direction, center, radius }.rounded::<V>();
+
+        let radius: f64 = sphere.radius.into();
+        let d = ray.direction.to_f64();
+        let to_center = sphere.center.to_f64() - ray.origin.to_f64();
+        let length = d.length();
+        let closest = to_center.cross(d).length() / length;
+        let half_chord = libm::sqrt((radius - closest) * (radius + closest));
+        let near = to_center.dot(d) / length - half_chord;
+        if !(half_chord > 0.1 && near > 0.1) {
+            continue;
+        }
+        let near = near / length;
+        // The number midway between the two floats around the near root, or the next one: the root grows as the center
+        // leaves the plane.
+        let halves = near.to_bits() / HALF_ULP;
+        let midway = f64::from_bits(((halves + 1) | 1) * HALF_ULP);
+        let shorter = (midway - near) * length;
+        let off_plane = libm::sqrt(shorter * (2.0 * half_chord - shorter));
+        let mut off = sphere.center.to_f64();
+        off.z = off_plane * rng.sign();
+        sphere.center = V::from_f64(off);
+
+        let rotation = rng.index();
+        let rotated = |v: V| {
+            let v = v.to_f64();
+            V::from_f64([v, DVec3::new(v.z, v.x, v.y), DVec3::new(v.y, v.z, v.x)][rotation])
+        };
+        ray = Ray::new(rotated(ray.origin), rotated(ray.direction));
+        sphere.center = rotated(sphere.center);
+        return (ray, sphere);
+    }
 }
 
 fn point_sphere<V: Precision>(rng: &mut Rng) -> Case<V> {
