@@ -1,7 +1,7 @@
 //! Rays spawned at a hit never meet the surface they leave: outwards they start strictly outside the sphere, inwards
 //! strictly inside, judged by exact arithmetic.
 //!
-//! The long run, of two million spawned rays in each precision:
+//! The long run, of one and a half million spawned rays or more in each precision:
 //!
 //! ```text
 //! EYERAY_CASES=1000000 cargo test --release --test spawn -- --nocapture
