@@ -70,6 +70,5 @@ fn main() {
     let mut comparisons = Comparisons::new(arguments.effort);
     rows_f32(&mut comparisons);
     rows_f64(&mut comparisons);
-    println!("{}\n", conditions::line());
-    comparisons.print();
+    println!("{}\n\n{comparisons}", conditions::line());
 }

@@ -5,11 +5,11 @@ use std::cmp::Ordering;
 use eyeray::{Ray, Scalar, Sphere, Vector};
 use rayon::prelude::*;
 
-use super::{Measured, Method, SEED, cases};
+use super::{Measured, Method, SEED, Start, cases};
 use crate::support::dyadic::Dyadic;
 use crate::support::families::{Case, Family};
 use crate::support::float::Float;
-use crate::support::oracle::{Root, Truth};
+use crate::support::oracle::{self, Root, Truth};
 
 /// Cases that share a seed.
 const CHUNK: usize = 1000;
@@ -38,9 +38,12 @@ pub struct Tally {
 /// What a family's row says of a method's errors.
 #[derive(Clone, Copy, Debug)]
 pub struct Summary {
-    /// In a million cases.
+    /// The cases that the method promises to answer.
+    pub judged: f64,
+    /// In a million of these; NaN where there are none.
     pub wrong: f64,
     pub other_root: f64,
+    /// In a million of all valid cases.
     pub apart: f64,
     /// Of all invalid inputs, the part that was called a hit; NaN where there were none.
     pub invalid_hits: f64,
@@ -76,6 +79,7 @@ impl Tally {
         let [median, percentile_99, worst] =
             [50, 99, 100].map(|hundredths| quantile(hundredths).unwrap_or(f64::NAN));
         Summary {
+            judged: self.judged as f64,
             wrong: per_million(self.wrong, self.judged),
             other_root: per_million(self.other_root, self.judged),
             apart: per_million(self.apart, self.judged + self.apart),
@@ -83,7 +87,7 @@ impl Tally {
             median,
             percentile_99,
             worst,
-            correctly_rounded: self.wrong == 0 && self.unrounded == 0,
+            correctly_rounded: self.judged > 0 && self.wrong == 0 && self.unrounded == 0,
         }
     }
 }
@@ -158,11 +162,13 @@ fn judge_case<V: Measured>(case: &Case<V>, methods: &[Method<V>], tallies: &mut 
     let roots = truth.as_ref().map(|truth| &truth.roots);
     let ahead = roots
         .and_then(|roots| (0..2).find_map(|index| Ahead::<V::Scalar>::new(index, &roots[index])));
-    let inside = roots.is_some_and(|[near, far]| {
-        near.compare(&Dyadic::ZERO).is_lt() && far.compare(&Dyadic::ZERO).is_gt()
-    });
+    let start = match oracle::side(sphere, ray.origin) {
+        Some(Ordering::Less) => Start::Inside,
+        Some(Ordering::Equal) => Start::OnTheSurface,
+        _ => Start::Outside,
+    };
     for (method, tally) in methods.iter().zip(tallies) {
-        if !(method.promises)(case, inside) {
+        if !(method.promises)(case, start) {
             tally.apart += 1;
             continue;
         }

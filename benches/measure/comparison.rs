@@ -47,8 +47,10 @@ impl Comparisons {
             ]);
         }
     }
+}
 
-    pub fn print(&self) {
-        println!("{}", self.table);
+impl std::fmt::Display for Comparisons {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.table.fmt(formatter)
     }
 }

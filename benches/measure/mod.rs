@@ -62,6 +62,17 @@ pub enum Kind {
     Eyeray,
 }
 
+/// Where the ray starts, exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    Outside,
+    OnTheSurface,
+    Inside,
+}
+
+/// Whether an answer is promised to a case.
+pub type Promise<V> = fn(&Case<V>, Start) -> bool;
+
 /// Finds the first root ahead.
 pub type Nearest<V> = dyn Fn(&Case<V>) -> Option<<V as eyeray::Vector>::Scalar> + Sync;
 
@@ -72,8 +83,8 @@ pub struct Method<V: Measured> {
     /// Where it comes from, and what it does not promise.
     pub source: &'static str,
     pub kind: Kind,
-    /// Whether it promises an answer; `inside` says whether the exact line enters behind the origin and leaves ahead.
-    pub promises: fn(&Case<V>, inside: bool) -> bool,
+    /// Whether it promises an answer.
+    pub promises: Promise<V>,
     pub nearest: Box<Nearest<V>>,
     pub pass: Pass<V>,
 }
@@ -97,8 +108,14 @@ impl<V: Measured> Method<V> {
 
     /// The same method, which promises an answer to these cases only.
     #[must_use]
-    pub fn promising(self, promises: fn(&Case<V>, inside: bool) -> bool) -> Self {
+    pub fn promising(self, promises: Promise<V>) -> Self {
         Self { promises, ..self }
+    }
+
+    /// The same method, of which this pass is timed.
+    #[must_use]
+    pub fn timed(self, pass: Pass<V>) -> Self {
+        Self { pass, ..self }
     }
 }
 

@@ -18,7 +18,7 @@ pub struct Mark {
     pub label: &'static str,
     pub kind: Kind,
     pub nanoseconds: f64,
-    /// The worst error, NaN where there was no answer to judge.
+    /// The worst error.
     pub ulps: f64,
     pub correctly_rounded: bool,
     pub decides_wrongly: bool,
@@ -116,7 +116,7 @@ impl TimeAxis {
     }
 
     fn place(&self, mark: &Mark) -> (f64, f64) {
-        let y = if mark.correctly_rounded || mark.ulps.is_nan() {
+        let y = if mark.correctly_rounded {
             PANEL_HEIGHT - BAND / 2.0 - 3.0
         } else {
             error_y(mark.ulps)

@@ -82,7 +82,8 @@ pub fn measure<V: Measured>(
     Part { precision: V::NAME, sources, rows, accuracy_cases }
 }
 
-/// What a group's families have in common for a method: the mean time, and the worst of the errors.
+/// What a group's families come to for a method: wrong decisions in all of their cases, the worst of their errors, the mean
+/// of their times.
 #[derive(Clone, Copy, Debug)]
 struct Overall {
     wrong: f64,
@@ -101,10 +102,14 @@ impl Part {
         };
         #[expect(clippy::cast_precision_loss, reason = "families are few")]
         let mean = |value: fn(&Row) -> f64| rows().map(value).sum::<f64>() / rows().count() as f64;
+        let judged: f64 = rows().map(|row| row.errors.judged).sum();
+        let wrong = rows().filter(|row| row.errors.judged > 0.0);
         Overall {
-            wrong: mean(|row| row.errors.wrong),
+            wrong: wrong.map(|row| row.errors.wrong * row.errors.judged).sum::<f64>() / judged,
             worst: rows().map(|row| row.errors.worst).fold(f64::NAN, f64::max),
-            correctly_rounded: rows().all(|row| row.errors.correctly_rounded),
+            correctly_rounded: rows()
+                .filter(|row| row.errors.judged > 0.0)
+                .all(|row| row.errors.correctly_rounded),
             predicted: mean(|row| row.predicted),
             unpredicted: mean(|row| row.unpredicted),
         }
@@ -130,6 +135,8 @@ impl Part {
                         decides_wrongly: overall.wrong > 0.0,
                     }
                 });
+                // Without an answer that was judged there is no place for a mark.
+                let marks = marks.filter(|mark| !mark.ulps.is_nan());
                 Panel { title: group.name, marks: marks.collect() }
             })
             .collect();
@@ -165,7 +172,7 @@ impl Part {
                     group.name.into(),
                     method.into(),
                     count(overall.wrong),
-                    ulps(overall.worst),
+                    worst(overall.worst, overall.correctly_rounded),
                     format!("{:.1}", overall.predicted),
                     format!("{:.2}", overall.predicted / first.predicted),
                     format!("{:.1}", overall.unpredicted),
@@ -212,7 +219,7 @@ impl Part {
                 count(errors.other_root),
                 ulps(errors.median),
                 ulps(errors.percentile_99),
-                ulps(errors.worst),
+                worst(errors.worst, errors.correctly_rounded),
                 format!("{:.1}", row.predicted),
                 format!("{:.2}", row.predicted_ratio),
                 format!("{:.1}", row.unpredicted),
@@ -302,8 +309,7 @@ root, where there is one and the method found any; ✓ where every answer was th
 was wrong. *ns*: nanoseconds a test where branches are predicted, {predicted} cases over and over; *unpredicted*: {unpredicted} \
 cases, once each a round. Both are medians of rounds in which every method takes its turn, beside their ratio to the first \
 method's. Input that is no ray or no sphere (a NaN, an infinity, a zero direction, a negative radius) is counted apart. \
-The cases are those of the accuracy tests, with the seeds {SEED}, {SEED} + 1 and so on, a thousand cases each; those timed \
-all with {SEED}.\n\nMeasured on {conditions}",
+The cases are those of the accuracy tests, with seeds from {SEED} on, a thousand cases each; those timed all with the seed {SEED}.\n\nMeasured on {conditions}",
         predicted = Regime::PREDICTED.cases,
         unpredicted = Regime::UNPREDICTED.cases,
         conditions = conditions::line(),
@@ -312,7 +318,9 @@ all with {SEED}.\n\nMeasured on {conditions}",
 
 /// A number in a million.
 fn count(per_million: f64) -> String {
-    if per_million > 0.0 && per_million < 10.0 {
+    if per_million.is_nan() {
+        "–".into()
+    } else if per_million > 0.0 && per_million < 10.0 {
         format!("{per_million:.1}")
     } else {
         format!("{per_million:.0}")
@@ -331,6 +339,10 @@ fn ulps(value: f64) -> String {
     } else {
         format!("{value:.1e}")
     }
+}
+
+fn worst(value: f64, correctly_rounded: bool) -> String {
+    if correctly_rounded { format!("{} ✓", ulps(value)) } else { ulps(value) }
 }
 
 /// A Markdown table, aligned to be read as plain text too.
