@@ -9,8 +9,8 @@ use std::fmt::Write as _;
 use super::Kind;
 
 /// What the picture shows, for those who do not see it.
-pub const ALT_TEXT: &str = "Time a test against worst error in ulps, both logarithmic, a panel for each group of families: \
-eyeray's methods lie lowest, a little to the right of the textbook, which lies high.";
+pub const ALT_TEXT: &str = "Time a test against worst error in ulps, both logarithmic: a panel for each group of \
+families, a named mark for each method, and the Pareto front. The tables give the same figures.";
 
 /// A method in a group of families.
 #[derive(Clone, Debug)]

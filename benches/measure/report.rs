@@ -60,7 +60,11 @@ pub fn measure<V: Measured>(
     };
     let mut rows = Vec::new();
     for family in groups::families() {
-        progress.set_message(format!("{}, {}", V::NAME, family.name));
+        let message = format!("{}, {}", V::NAME, family.name);
+        if progress.is_hidden() {
+            eprintln!("{message}");
+        }
+        progress.set_message(message);
         let tallies = accuracy::judge(family, methods, accuracy_cases);
         let predicted = time(family, Regime::PREDICTED);
         let unpredicted = time(family, Regime::UNPREDICTED);
