@@ -272,6 +272,8 @@ impl Exact {
         let settle =
             |root: Wide, side| S::settle_exactly(root.to_f64(), |m| self.compare_root(side, m));
         let t = [settle(roots[0], Side::Near), settle(roots[1], Side::Far)];
+        // Of two roots that differ by less than an f64 can tell, each may have been rounded to the side of the other.
+        let t = if t[1] < t[0] { [t[1], t[0]] } else { t };
         Some(self.crossings_at(t, half_chord))
     }
 
