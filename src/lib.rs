@@ -46,7 +46,7 @@
 //! - `serde`: `Serialize` and `Deserialize` for all data types. A [`Camera`] is checked again when it is deserialized.
 //! - `bytemuck`: `Pod` and `Zeroable` for [`Ray`] and [`Sphere`], to hand them to a GPU as bytes.
 //! - `approx-05`: `AbsDiffEq`, `RelativeEq` and `UlpsEq` of approx 0.5, named as glam names its own.
-#![cfg_attr(not(feature = "std"), no_std)]
+#![cfg_attr(not(any(test, feature = "std")), no_std)]
 #![cfg_attr(
     not(any(feature = "bytemuck", all(feature = "std", target_arch = "x86_64"))),
     forbid(unsafe_code)
@@ -82,6 +82,8 @@ mod single;
 mod sphere;
 #[cfg(feature = "alloc")]
 mod spheres;
+#[cfg(test)]
+mod testing;
 mod vector;
 mod view_rect;
 

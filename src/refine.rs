@@ -17,23 +17,27 @@ use glam::DVec3;
 
 use crate::arithmetic::exact::{Sum, Wide};
 use crate::arithmetic::number::{Number, Triple};
-use crate::arithmetic::pair::{Pair, two_difference};
+use crate::arithmetic::pair::{
+    PRODUCT_ERROR, Pair, QUOTIENT_ERROR, ROOT_ERROR, SUM_ERROR, V, two_difference,
+};
 use crate::arithmetic::scaling::{exponent, scale};
 use crate::chord::{Chord, Derivation};
 use crate::float::sqrt;
 use crate::geometric::ClosestApproach;
 use crate::{Ray, Scalar, Sphere, Vector};
 
-/// v = u² = 2⁻¹⁰⁶.
-const V: f64 = (f64::EPSILON / 2.0) * (f64::EPSILON / 2.0);
-/// Of h, in |o| |d|.
-const H_ERROR: f64 = 13.0 * V;
+/// Of a in itself, of h in |o| |d|, of o·o in itself: a product and two additions.
+const DOT_ERROR: f64 = PRODUCT_ERROR + 2.0 * SUM_ERROR;
 /// Of the power, in m.
-const POWER_ERROR: f64 = 21.0 * V;
+const POWER_ERROR: f64 = DOT_ERROR + 2.0 * SUM_ERROR;
+/// Of |o × d|², in a o·o: twice 9 √2 v < 13 v for that of o × d, and the product with itself.
+const MOMENT_SQUARED_ERROR: f64 = 2.0 * 13.0 * V + DOT_ERROR;
 /// Of the discriminant, in a m.
-const DISCRIMINANT_ERROR: f64 = 65.0 * V;
-/// Of a quotient or a sum besides what its terms bring with them, in itself: with the error of a, and to spare.
-const QUOTIENT_ERROR: f64 = 32.0 * V;
+const DISCRIMINANT_ERROR: f64 =
+    (DOT_ERROR + PRODUCT_ERROR) + MOMENT_SQUARED_ERROR + 2.0 * SUM_ERROR;
+/// Of a root besides what h, the discriminant and the power bring with them, in itself: of a, the square root, the sum and the
+/// quotient, and one to spare.
+const ROOT_QUOTIENT_ERROR: f64 = DOT_ERROR + ROOT_ERROR + SUM_ERROR + QUOTIENT_ERROR + V;
 
 /// A line and a sphere as the caller gave them.
 pub(crate) struct Line {
@@ -196,14 +200,14 @@ impl Scaled {
         let half_chord = discriminant.sqrt();
         let sum = h.abs() + half_chord;
         let sum_error =
-            H_ERROR * sqrt(a.hi * distance_squared.hi) + discriminant_error / half_chord.hi;
+            DOT_ERROR * sqrt(a.hi * distance_squared.hi) + discriminant_error / half_chord.hi;
         if sum_error > S::NORMAL_ERROR * (self.radius * sqrt(a.hi)) {
             return InPairs::Doubt;
         }
 
         // The root that does not cancel, and the other one from the product of the roots, power / a.
         // The errors of quotients are doubled for their terms of second order.
-        let sum_relative_error = 2.0 * (sum_error / sum.hi) + QUOTIENT_ERROR;
+        let sum_relative_error = 2.0 * (sum_error / sum.hi) + ROOT_QUOTIENT_ERROR;
         let settle =
             |t: Pair, relative_error| S::settle(scale(t.hi, self.root_exponent), relative_error);
         let (Some(x), Some(y)) = (

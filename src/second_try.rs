@@ -17,7 +17,9 @@
 //! ```
 
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{Pair, compensated_dot, two_difference, two_product};
+use crate::arithmetic::pair::{
+    COMPENSATED_DOT_ERROR, Pair, compensated_dot, two_difference, two_product,
+};
 use crate::chord::{Chord, Derivation};
 use crate::float::sqrt;
 use crate::geometric::ClosestApproach;
@@ -33,7 +35,7 @@ const DISCRIMINANT_ERROR: f64 = 8.0 * U;
 /// Of the discriminant too, in o·o a.
 const MOMENT_ERROR_SQUARED: f64 = 10.0 * U * U;
 /// Of the power, in m.
-const POWER_ERROR: f64 = 16.0 * U * U;
+const POWER_ERROR: f64 = 2.0 * COMPENSATED_DOT_ERROR;
 /// Of a quotient, besides what its terms bring with them: a, 3 u, and the rounding of the power, a sum and itself.
 const QUOTIENT_ERROR: f64 = 8.0 * U;
 

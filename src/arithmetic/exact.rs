@@ -10,6 +10,9 @@ use core::ops::{Add, Div, Neg, Range};
 use super::pair::{Pair, two_sum};
 use super::scaling::{exponent, scale};
 
+#[cfg(test)]
+mod tests;
+
 /// Bits a digit.
 const DIGIT: i32 = 32;
 /// The exponent of the lowest digit: below 2⁻⁴²⁹⁶ = (2⁻¹⁰⁷⁴)⁴, and a whole number of digits.

@@ -9,6 +9,36 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use super::number::Triple;
 use crate::float::sqrt;
 
+#[cfg(test)]
+mod tests;
+
+/// v = u² = 2⁻¹⁰⁶.
+pub(crate) const V: f64 = (f64::EPSILON / 2.0) * (f64::EPSILON / 2.0);
+/// Of a sum or a difference of pairs, in |a| + |b|.
+///
+/// To first order: the sum of the low parts, each at most u of its number, is rounded by v (|a| + |b|), and with the low part
+/// of the sum of the high parts, at most u |a + b| more, by 2 v (|a| + |b|). That makes 3; the fourth is to spare.
+pub(crate) const SUM_ERROR: f64 = 4.0 * V;
+/// Of a product of pairs, in |a b|: Joldes, Muller and Popescu's algorithm 10, for which they prove 5.
+pub(crate) const PRODUCT_ERROR: f64 = 5.0 * V;
+/// Of a quotient of pairs, in |a / b|.
+///
+/// To first order, and where it is largest, with the high parts and the quotient just above 1: the remainder of the high parts
+/// is exact and at most u; the product of the quotient and the low part of b is rounded by v, its difference from the low part
+/// of a by 2 v, and the sum of both, at most 3 u, by 2 v; the division of that by 2 v, and by the high part of b instead of all
+/// of b, 3 v.
+pub(crate) const QUOTIENT_ERROR: f64 = 10.0 * V;
+/// Of the square root of a pair, in itself.
+///
+/// To first order, and where it is largest, with a number just above 1: the remainder, at most 3 u, is rounded by 2 v, which
+/// counts half; its quotient, 3/2 u, by v; and Newton's step leaves half the square of that, 9/8 v. That makes 25/8.
+pub(crate) const ROOT_ERROR: f64 = 4.0 * V;
+/// Of a compensated dot product, in the sum of the |aᵢ bᵢ|.
+///
+/// To first order: the errors of products are at most u of them, those of the two sums u of the whole each, and the four
+/// additions of these are rounded by at most 1, 2, 2 and 3 v of the whole, in the order in which they are carried out here.
+pub(crate) const COMPENSATED_DOT_ERROR: f64 = 8.0 * V;
+
 /// The sum `hi + lo`, where `hi` is the sum rounded to an `f64`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pair {
@@ -38,7 +68,7 @@ fn fast_two_sum(a: f64, b: f64) -> Pair {
     Pair { hi, lo: b - (hi - a) }
 }
 
-/// `a b`, exactly, unless the error underflows.
+/// `a b`, exactly, unless the error underflows, below 2⁻¹⁰⁷⁴, or a factor is 2⁹⁹⁶ or more.
 ///
 /// Where the machine has a fused multiply-add, it gives the error at once; the bits are the same either way.
 #[inline(always)]
@@ -67,7 +97,7 @@ fn split(a: f64) -> (f64, f64) {
 }
 
 /// `a·b`, as `hi`, the dot product that plain arithmetic gives, and `lo`, very nearly its error: their sum is off by at most
-/// 8 u² |a|·|b|.
+/// [`COMPENSATED_DOT_ERROR`].
 ///
 /// Ogita, Rump and Oishi, *Accurate Sum and Dot Product* (2005).
 #[inline(always)]
@@ -84,7 +114,7 @@ impl Pair {
         if self.hi < 0.0 { -self } else { self }
     }
 
-    /// The square root of a positive pair: relative error at most 4 u².
+    /// The square root of a positive pair: relative error at most [`ROOT_ERROR`].
     ///
     /// One step of Newton's from the square root of `hi`.
     pub(crate) fn sqrt(self) -> Self {
@@ -114,7 +144,7 @@ impl Neg for Pair {
 impl Add for Pair {
     type Output = Self;
 
-    /// Error at most 4 u² (|a| + |b|).
+    /// Error at most [`SUM_ERROR`].
     #[inline(always)]
     fn add(self, other: Self) -> Self {
         let sum = two_sum(self.hi, other.hi);
@@ -125,7 +155,7 @@ impl Add for Pair {
 impl Sub for Pair {
     type Output = Self;
 
-    /// Error at most 4 u² (|a| + |b|).
+    /// Error at most [`SUM_ERROR`].
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
         self + -other
@@ -135,7 +165,7 @@ impl Sub for Pair {
 impl Mul for Pair {
     type Output = Self;
 
-    /// Relative error at most 5 u².
+    /// Relative error at most [`PRODUCT_ERROR`].
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let product = two_product(self.hi, other.hi);
@@ -146,7 +176,7 @@ impl Mul for Pair {
 impl Div for Pair {
     type Output = Self;
 
-    /// Relative error at most 10 u².
+    /// Relative error at most [`QUOTIENT_ERROR`].
     #[inline(always)]
     fn div(self, other: Self) -> Self {
         let quotient = self.hi / other.hi;

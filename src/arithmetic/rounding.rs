@@ -5,6 +5,9 @@
 
 use core::cmp::Ordering;
 
+#[cfg(test)]
+mod tests;
+
 /// Twice the fraction of an `f64` that an `f32` has no room for: 29 bits.
 const EXCESS: u32 = 1 << 29;
 /// What lies halfway between two neighboring normal `f32`, within those bits.
@@ -73,7 +76,7 @@ macro_rules! next_down {
 /// A type of numbers that an exact sum can be rounded down to.
 pub trait RoundDown: Sized {
     /// The largest number of this type that is no larger than `hi + lo`, where `hi` is that sum rounded; of one that
-    /// overflows, an infinity.
+    /// overflows an `f64`, an infinity.
     fn round_down(hi: f64, lo: f64) -> Self;
 }
 

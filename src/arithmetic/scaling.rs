@@ -1,5 +1,8 @@
 //! Powers of two: exact factors that bring numbers into the middle of the range, and back.
 
+#[cfg(test)]
+mod tests;
+
 /// The exponent e of a finite nonzero `x`: 2ᵉ ≤ |x| < 2ᵉ⁺¹ (for a subnormal number, −1023). Of zero, −1023 too.
 #[inline]
 pub(crate) fn exponent(x: f64) -> i32 {

@@ -1,0 +1,200 @@
+//! What the unit tests share: exact numbers, random ones, and a search for the worst case.
+
+use std::fmt::Debug;
+use std::ops::RangeInclusive;
+
+use rand_pcg::Pcg32;
+use rand_pcg::rand_core::{Rng, SeedableRng};
+
+#[allow(
+    dead_code,
+    unreachable_pub,
+    reason = "the oracle of the integration tests, of which these take what they need"
+)]
+#[path = "../tests/support/dyadic.rs"]
+mod dyadic;
+
+pub(crate) use dyadic::Dyadic;
+
+use crate::arithmetic::pair::Pair;
+
+/// u = 2⁻⁵³.
+pub(crate) const U: f64 = f64::EPSILON / 2.0;
+
+/// The exact value of a pair.
+pub(crate) fn exactly(pair: Pair) -> Dyadic {
+    &Dyadic::exactly(pair.hi) + &Dyadic::exactly(pair.lo)
+}
+
+/// The sum of exact numbers.
+pub(crate) fn total(terms: impl IntoIterator<Item = Dyadic>) -> Dyadic {
+    terms.into_iter().fold(Dyadic::ZERO, |sum, term| &sum + &term)
+}
+
+/// How large the error of a computed value is, as a part of the bound.
+pub(crate) fn part_of_bound(computed: &Dyadic, exact: &Dyadic, bound: &Dyadic) -> f64 {
+    let error = (computed - exact).abs();
+    if error.is_zero() {
+        return 0.0;
+    }
+    assert!(!bound.is_zero(), "an error where there may be none");
+    error.divided_by(bound, 64).approximately()
+}
+
+/// A type of floats whose neighbors can be asked for.
+pub(crate) trait Neighbors: Copy + PartialEq + Debug {
+    /// The number, and twice the largest power of two for infinity.
+    fn number(self) -> Dyadic;
+    /// Itself, with the two numbers on either side.
+    fn neighborhood(self) -> [Self; 5];
+    /// Whether its last bit is 0.
+    fn is_even(self) -> bool;
+}
+
+macro_rules! neighbors {
+    ($float:ident, $beyond:expr) => {
+        impl Neighbors for $float {
+            fn number(self) -> Dyadic {
+                if self.is_finite() {
+                    Dyadic::exactly(self.into())
+                } else {
+                    Dyadic::new(if self < 0.0 { -1 } else { 1 }, $beyond)
+                }
+            }
+
+            fn neighborhood(self) -> [Self; 5] {
+                // The bits of the magnitude count the numbers from zero on, up to infinity.
+                let infinity = i64::try_from($float::INFINITY.to_bits()).unwrap();
+                let magnitude = i64::try_from(self.abs().to_bits()).unwrap();
+                [-2, -1, 0, 1, 2].map(|step| {
+                    let place = if self < 0.0 { step - magnitude } else { step + magnitude };
+                    let magnitude = place.abs().min(infinity).unsigned_abs();
+                    let magnitude = $float::from_bits(magnitude.try_into().unwrap());
+                    if place < 0 { -magnitude } else { magnitude }
+                })
+            }
+
+            fn is_even(self) -> bool {
+                self.to_bits() % 2 == 0
+            }
+        }
+    };
+}
+
+neighbors!(f32, 128);
+neighbors!(f64, 1024);
+
+/// Of the floats around `guess`, the one nearest to `exact`, ties to even.
+pub(crate) fn nearest<F: Neighbors>(exact: &Dyadic, guess: F) -> F {
+    let distance = |candidate: F| (&candidate.number() - exact).abs();
+    let [first, others @ ..] = guess.neighborhood();
+    others.into_iter().fold(first, |best, candidate| {
+        match distance(candidate).cmp(&distance(best)) {
+            std::cmp::Ordering::Less => candidate,
+            std::cmp::Ordering::Equal if candidate.is_even() => candidate,
+            _ => best,
+        }
+    })
+}
+
+/// Random numbers, the same on every machine.
+pub(crate) struct Random(Pcg32);
+
+impl Random {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(Pcg32::seed_from_u64(seed))
+    }
+
+    pub(crate) fn bits(&mut self) -> u64 {
+        self.0.next_u64()
+    }
+
+    /// An index below `count`.
+    pub(crate) fn below(&mut self, count: usize) -> usize {
+        usize::try_from(self.bits() % u64::try_from(count).unwrap()).unwrap()
+    }
+
+    pub(crate) fn integer(&mut self, range: RangeInclusive<i32>) -> i32 {
+        let (low, high) = range.into_inner();
+        low + i32::try_from(self.below(usize::try_from(high - low).unwrap() + 1)).unwrap()
+    }
+
+    /// Between 1 and 2: any bits, or a run of zeros or of ones behind a few.
+    pub(crate) fn mantissa(&mut self) -> f64 {
+        let (bits, run) = (self.bits() >> 12, (1_u64 << self.below(53)) - 1);
+        f64::from_bits(
+            1023 << 52
+                | match self.below(4) {
+                    0 => bits & !run,
+                    1 => bits | run,
+                    _ => bits,
+                },
+        )
+    }
+
+    /// 1 or -1.
+    pub(crate) fn sign(&mut self) -> f64 {
+        if self.bits() % 2 == 0 { 1.0 } else { -1.0 }
+    }
+
+    /// Of either sign, with an exponent in the range; `exponents` are those of normal numbers.
+    pub(crate) fn float(&mut self, exponents: RangeInclusive<i32>) -> f64 {
+        let exponent = self.integer(exponents);
+        self.sign() * self.mantissa() * 2_f64.powi(exponent)
+    }
+
+    /// Any finite number.
+    pub(crate) fn any_float(&mut self) -> f64 {
+        loop {
+            let x = f64::from_bits(self.bits());
+            if x.is_finite() {
+                return x;
+            }
+        }
+    }
+
+    /// The same with the last bits changed, a few of them or many.
+    pub(crate) fn nudge(&mut self, x: f64) -> f64 {
+        let bits = self.bits() >> 12 >> self.below(52);
+        f64::from_bits(x.to_bits() ^ bits)
+    }
+}
+
+/// Climbs to large values of `part`, the part of a bound that the error of a case takes, and gives the largest found.
+///
+/// `part` is `None` of what is no case. Fails where the bound is exceeded.
+pub(crate) fn search<const N: usize>(
+    what: &str,
+    climbs: u64,
+    steps: usize,
+    start: impl Fn(&mut Random) -> [f64; N],
+    part: impl Fn([f64; N]) -> Option<f64>,
+) -> f64 {
+    let part = |case: [f64; N]| {
+        let part = part(case).unwrap_or(0.0);
+        assert!(part <= 1.0, "{what}: {part} of the bound at {case:?}");
+        part
+    };
+    let mut worst = (0.0, [0.0; N]);
+    for climb in 0..climbs {
+        let mut random = Random::new(climb);
+        let mut case = start(&mut random);
+        let mut highest = part(case);
+        for _ in 0..steps {
+            let mut other = case;
+            for _ in 0..=random.below(2) {
+                let index = random.below(N);
+                other[index] = random.nudge(other[index]);
+            }
+            let height = part(other);
+            if height >= highest {
+                (case, highest) = (other, height);
+            }
+        }
+        if highest > worst.0 {
+            worst = (highest, case);
+        }
+    }
+    println!("{what}: {:.3} of the bound, at {:?}", worst.0, worst.1);
+    worst.0
+}
