@@ -1,33 +1,53 @@
 //! The first try: the roots from a chord computed in plain `f64`, wherever that is beyond doubt.
 //!
-//! With u = 2⁻⁵³, m the larger of o·o and r², and each of o = c - p rounded once:
+//! With u = 2⁻⁵³, m the larger of o·o and r², and each of o = c - p rounded once, to first order:
 //!
 //! ```text
-//! a             2 additions, 3 products                      |error| ≤  3 u a
-//! h             o, product, 2 additions                      |error| ≤  4 u |o| |d|
-//! o·o           o twice, product, 2 additions                |error| ≤  5 u o·o
-//! power         and r² and a subtraction                     |error| ≤  7 u m
-//! discriminant  h²: 9 u a o·o;  a power: 11 u a m;  difference: u a m
-//!               or r² a: 5 u a m;  |o × d|²: 11 u a o·o (as |error of o × d| ≤ 2√2 u |o| |d| + u |o × d|)
+//! a             a product, 2 additions                       |error| ≤  3 u a
+//! h             o, a product, 2 additions                    |error| ≤  4 u |o| |d|
+//! o·o           o twice, a product, 2 additions              |error| ≤  5 u o·o
+//! power         o·o: 5 u m;  r²: u m;  difference: u m       |error| ≤  7 u m
+//! discriminant  by the quadratic:
+//!               h²: 8 u |h| |o| |d| + u h² ≤ 9 u a m;  a power: 7 u a m and 3 u + u of it ≤ 11 u a m;  difference: u a m
 //!                                                            |error| ≤ 21 u a m
+//!               by the closest approach:
+//!               r² a: 5 u a m;  |o × d|²: 11 u a m, as |error of o × d| ≤ 2√2 u |o| |d| + u |o × d|;  difference: u a m
+//!                                                            |error| ≤ 17 u a m
 //! ```
+//!
+//! What is left out are squares of errors, 2⁻⁴⁸ of the bounds, which are far from reached: the roundings of o, of d·d and of o·o
+//! enter h² and a power alike, and cancel in the difference.
+
+#[cfg(test)]
+mod tests;
 
 use crate::chord::Chord;
 use crate::float::sqrt;
 
+/// u = 2⁻⁵³.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// Of the discriminant, in a m.
+const DISCRIMINANT_ERROR: f64 = 21.0 * U;
+
+/// Of the power, in m.
+const POWER_ERROR: f64 = 7.0 * U;
+
 /// A discriminant or a power is clear of doubt beyond this part of what it was subtracted from, a m or m: its relative error
-/// is then at most 21 u / CLEAR or 7 u / CLEAR.
+/// is then at most [`DISCRIMINANT_ERROR`] or [`POWER_ERROR`] over this.
 ///
 /// Smaller, and more rays would be decided here, but each root would be less sure; at 2⁻¹⁴ the two kinds of doubt are about
 /// equally rare.
 pub(crate) const CLEAR: f64 = 1.0 / 16384.0;
 
-/// The relative error of a root of the first try: half the discriminant's, 10.5 u / CLEAR, for its square root, the power's,
-/// 7 u / CLEAR, and half a u / CLEAR for the rest, which is below 8 u |o| |d| / √discriminant ≤ 8 u / √CLEAR.
-pub(crate) const RELATIVE_ERROR: f64 = 18.0 * (f64::EPSILON / 2.0) / CLEAR;
+/// The relative error of a root of the first try: half the discriminant's, for its square root, the power's, and the rest.
+///
+/// The rest is h, 4 u √(a m) in a sum that is at least √discriminant ≥ √(CLEAR a m), and a, 3 u, and the roundings of a root, a
+/// sum and a quotient: together 4 u / √CLEAR + 6 u, far below u / (2 CLEAR).
+pub(crate) const RELATIVE_ERROR: f64 = (DISCRIMINANT_ERROR / 2.0 + POWER_ERROR + U / 2.0) / CLEAR;
 
-/// Beyond this part of m, the sign of a power is certain: 8 u > 7 u.
-const SIGN_CERTAIN: f64 = 8.0 * (f64::EPSILON / 2.0);
+/// Beyond this part of m, the sign of a power is certain.
+const SIGN_CERTAIN: f64 = POWER_ERROR + U;
 
 /// What the first try says of the nearest root ahead.
 pub(crate) enum FirstTry {

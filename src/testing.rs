@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 use std::ops::RangeInclusive;
 
+use glam::DVec3;
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
@@ -197,4 +198,82 @@ pub(crate) fn search<const N: usize>(
     }
     println!("{what}: {:.3} of the bound, at {:?}", worst.0, worst.1);
     worst.0
+}
+
+/// The chord of a line in a sphere, exactly.
+pub(crate) struct ExactChord {
+    pub(crate) a: Dyadic,
+    pub(crate) h: Dyadic,
+    pub(crate) distance_squared: Dyadic,
+    pub(crate) power: Dyadic,
+    pub(crate) discriminant: Dyadic,
+}
+
+impl ExactChord {
+    /// From the coordinates of center, origin and direction, and the radius.
+    pub(crate) fn new(numbers: [f64; 10]) -> Self {
+        let numbers = numbers.map(Dyadic::exactly);
+        let [cx, cy, cz, px, py, pz, dx, dy, dz, radius] = &numbers;
+        let o = [cx - px, cy - py, cz - pz];
+        let d = [dx, dy, dz];
+        let a = total(d.map(|d| d * d));
+        let h = total([0, 1, 2].map(|axis| d[axis] * &o[axis]));
+        let distance_squared = total([0, 1, 2].map(|axis| &o[axis] * &o[axis]));
+        let power = &distance_squared - &(radius * radius);
+        let discriminant = &(&h * &h) - &(&a * &power);
+        Self { a, h, distance_squared, power, discriminant }
+    }
+
+    pub(crate) fn radius_squared(&self) -> Dyadic {
+        &self.distance_squared - &self.power
+    }
+
+    /// m, the larger of o·o and r².
+    pub(crate) fn larger(&self) -> Dyadic {
+        self.distance_squared.clone().max(self.radius_squared())
+    }
+
+    /// Both roots to some 300 bits, ascending.
+    pub(crate) fn roots(&self) -> Option<[Dyadic; 2]> {
+        if self.discriminant.is_negative() {
+            return None;
+        }
+        let half_chord = self.discriminant.square_root(600);
+        let root = |numerator: Dyadic| numerator.divided_by(&self.a, 600);
+        Some([root(&self.h - &half_chord), root(&self.h + &half_chord)])
+    }
+}
+
+/// How a ray lies to a sphere.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lie {
+    /// The power, in m: positive outside.
+    pub(crate) power: f64,
+    /// The discriminant, in a m: from outside, at most 1 less the power; from inside, at least as much as the power.
+    pub(crate) discriminant: f64,
+}
+
+/// A center, an origin, a direction and a radius of which all coordinates have many digits, and that lie so, nearly.
+pub(crate) fn setting(random: &mut Random, lie: Lie) -> [f64; 10] {
+    let unit = |random: &mut Random| DVec3::from([0; 3].map(|_| random.float(-2..=0))).normalize();
+    let along = unit(random);
+    let across = along.cross(unit(random)).normalize();
+    let larger = random.mantissa();
+    let (distance_squared, radius_squared) =
+        if lie.power > 0.0 { (1.0, 1.0 - lie.power) } else { (1.0 + lie.power, 1.0) };
+    let cos_squared = ((lie.discriminant + lie.power) / distance_squared).clamp(0.0, 1.0);
+    let side = if lie.power > 0.0 { 1.0 } else { random.sign() };
+    let direction = along * (side * cos_squared.sqrt()) + across * (1.0 - cos_squared).sqrt();
+    let origin = DVec3::from([0; 3].map(|_| random.float(-4..=0)));
+    let center = origin + along * (distance_squared.sqrt() * larger);
+    let direction = direction * random.mantissa();
+    let radius = radius_squared.sqrt() * larger;
+    let [center, origin, direction] = [center, origin, direction].map(|v| v.to_array());
+    let mut numbers = [radius; 10];
+    for (number, coordinate) in
+        numbers.iter_mut().zip([center, origin, direction].into_iter().flatten())
+    {
+        *number = coordinate;
+    }
+    numbers
 }
