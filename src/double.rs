@@ -10,6 +10,7 @@ use crate::arithmetic::pair::{compensated_dot, two_difference, two_product};
 use crate::chord::{Chord, Derivation};
 use crate::first_try::{BothRoots, FirstTry, both_roots, nearest_ahead};
 use crate::geometric::ClosestApproach;
+use crate::hit::Found;
 use crate::precision::Precision;
 use crate::refine::{self, Crossings, Line, Target};
 use crate::second_try::{Estimate, Root, SecondTry, second_try};
@@ -132,18 +133,15 @@ impl Precision for DVec3 {
                     let (t, offset) = setting.polish(numerator, denominator, half_chord);
                     // Below the range, the other root may be in it.
                     if t >= range.start && t > 0.0 {
-                        return (t < range.end).then(|| Hit {
-                            t,
-                            point: sphere.center + offset,
-                            normal: offset / sphere.radius,
-                            clearance: clearance(sphere),
-                        });
+                        let normal = offset / sphere.radius;
+                        return (t < range.end).then(|| hit(sphere, Found { t, offset, normal }));
                     }
                 }
                 FirstTry::Doubt => {}
             }
         }
-        intersect_refined(sphere, ray, range)
+        let Found { t, offset, normal } = refined(sphere, ray, range)?;
+        Some(hit(sphere, Found { t, offset, normal }))
     }
 
     #[inline(always)]
@@ -225,18 +223,16 @@ fn roots_refined(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> Option<[f64; 2]> {
 /// The nearest hit where the first try left a doubt.
 #[cold]
 #[inline(never)]
-fn intersect_refined(
-    sphere: &Sphere<DVec3>,
-    ray: &Ray<DVec3>,
-    range: Range<f64>,
-) -> Option<Hit<DVec3>> {
+fn refined(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>, range: Range<f64>) -> Option<Found<DVec3>> {
     let (t, normal) = crossings(sphere, ray)?.nearest(&range)?;
-    Some(Hit {
-        t,
-        point: sphere.center + normal * sphere.radius,
-        normal,
-        clearance: clearance(sphere),
-    })
+    Some(Found { t, offset: normal * sphere.radius, normal })
+}
+
+/// The hit.
+#[inline(always)]
+fn hit(sphere: &Sphere<DVec3>, found: Found<DVec3>) -> Hit<DVec3> {
+    let Found { t, offset, normal } = found;
+    Hit { t, point: sphere.center + offset, normal, clearance: clearance(sphere) }
 }
 
 impl Target for f64 {

@@ -71,14 +71,12 @@ pub(crate) enum FirstTry {
 #[inline(always)]
 pub(crate) fn nearest_ahead(chord: &Chord<f64>, radius_squared: f64) -> FirstTry {
     let Chord { a, h, distance_squared, power, discriminant } = *chord;
-    if power > CLEAR * distance_squared {
+    let clear_power = CLEAR * distance_squared;
+    if power > clear_power {
         // Outside. Both roots lie on one side, the side of the closest approach, whose sign is certain because
         // h² = discriminant + a power is far above its error.
-        let clear = CLEAR * (a * distance_squared);
+        let clear = a * clear_power;
         if discriminant > clear {
-            if h < 0.0 {
-                return FirstTry::Miss;
-            }
             // The nearer root, (h - √discriminant) / a, without its cancellation: the product of the roots is power / a.
             let half_chord = sqrt(discriminant);
             return FirstTry::Root { numerator: power, denominator: h + half_chord, half_chord };

@@ -9,6 +9,7 @@ use crate::arithmetic::number::Triple;
 use crate::arithmetic::rounding::{round_to_f32, round_to_f32_exactly, rounds_safely};
 use crate::chord::{Chord, Derivation};
 use crate::first_try::{BothRoots, FirstTry, RELATIVE_ERROR, both_roots, nearest_ahead};
+use crate::hit::Found;
 use crate::precision::Precision;
 use crate::refine::{self, Crossings, Line, Target};
 use crate::second_try::{Estimate, SecondTry, second_try};
@@ -60,13 +61,18 @@ impl Precision for Vec3 {
                     && rounded >= range.start
                     && rounded >= f32::MIN_POSITIVE
                 {
+                    let offset = setting.direction * t - setting.o;
                     return (rounded < range.end)
-                        .then(|| hit(sphere, rounded, setting.direction * t - setting.o));
+                        .then(|| hit(sphere, found(sphere, rounded, offset)));
+                }
+                if t < 0.0 {
+                    return None;
                 }
             }
             FirstTry::Doubt => {}
         }
-        intersect_refined(sphere, ray, range)
+        let Found { t, offset, normal } = refined(sphere, ray, range)?;
+        Some(hit(sphere, Found { t, offset, normal }))
     }
 
     #[inline(always)]
@@ -91,7 +97,7 @@ impl Precision for Vec3 {
 
 /// The hit at `t`, with `offset` from the center to it.
 #[inline(always)]
-fn hit(sphere: &Sphere, t: f32, offset: DVec3) -> Hit {
+fn found(sphere: &Sphere, t: f32, offset: DVec3) -> Found<Vec3> {
     /// Between its inverse and this, neither a radius nor its reciprocal is subnormal.
     const ORDINARY: f32 = 1e30;
     // Rounded here and once more in what follows: that is 1 ulp for the point, and with the reciprocal's rounding 1.5 ulp
@@ -102,9 +108,16 @@ fn hit(sphere: &Sphere, t: f32, offset: DVec3) -> Hit {
     } else {
         (offset / f64::from(sphere.radius)).as_vec3()
     };
+    Found { t, offset: rounded, normal }
+}
+
+/// The hit.
+#[inline(always)]
+fn hit(sphere: &Sphere, found: Found<Vec3>) -> Hit {
+    let Found { t, offset, normal } = found;
     Hit {
         t,
-        point: sphere.center + rounded,
+        point: sphere.center + offset,
         normal,
         clearance: clearance(sphere.center, sphere.radius),
     }
@@ -159,15 +172,10 @@ fn roots_refined(sphere: &Sphere, ray: &Ray) -> Option<[f32; 2]> {
 /// The nearest hit where the first try left a doubt.
 #[cold]
 #[inline(never)]
-fn intersect_refined(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
+fn refined(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Found<Vec3>> {
     let (t, normal) = crossings(sphere, ray)?.nearest(&range)?;
     let offset = normal * f64::from(sphere.radius);
-    Some(Hit {
-        t,
-        point: sphere.center + offset.as_vec3(),
-        normal: normal.as_vec3(),
-        clearance: clearance(sphere.center, sphere.radius),
-    })
+    Some(Found { t, offset: offset.as_vec3(), normal: normal.as_vec3() })
 }
 
 impl Target for f32 {
