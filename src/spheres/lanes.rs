@@ -9,7 +9,7 @@ pub(crate) trait Vectorized {
     type Output;
 
     /// Runs it; `FUSED` where the machine has a fused multiply-add.
-    fn run<const FUSED: bool>(self) -> Self::Output;
+    fn run<const FUSED: bool>(&self) -> Self::Output;
 }
 
 /// A set of instructions.
@@ -47,15 +47,21 @@ impl Lanes {
 
     /// Runs the loop with this set of instructions, or with what the crate is compiled for if the machine lacks it.
     #[inline(always)]
-    pub(crate) fn run<F: Vectorized>(self, f: F) -> F::Output {
+    pub(crate) fn run<F: Vectorized>(self, f: &F) -> F::Output {
         #[cfg(all(feature = "std", target_arch = "x86_64"))]
         if self == Self::Avx2 && has_avx2() {
             #[expect(unsafe_code, reason = "the machine has what the function is compiled for")]
             // SAFETY: has_avx2() says that both AVX2 and FMA are there.
             return unsafe { run_avx2(f) };
         }
-        f.run::<{ cfg!(any(target_arch = "aarch64", target_feature = "fma")) }>()
+        run_compiled(f)
     }
+}
+
+// Neither is inlined: a loop that shares its function with other code may get the vectors that it keeps saved and restored.
+#[inline(never)]
+fn run_compiled<F: Vectorized>(f: &F) -> F::Output {
+    f.run::<{ cfg!(any(target_arch = "aarch64", target_feature = "fma")) }>()
 }
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
@@ -66,7 +72,8 @@ fn has_avx2() -> bool {
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[target_feature(enable = "avx2,fma")]
+#[inline(never)]
 #[expect(unsafe_code, reason = "Rust 1.85 has no safe functions of other instructions")]
-unsafe fn run_avx2<F: Vectorized>(f: F) -> F::Output {
+unsafe fn run_avx2<F: Vectorized>(f: &F) -> F::Output {
     f.run::<true>()
 }
