@@ -1,6 +1,6 @@
 //! Where two tries in `f64` leave a doubt: the geometric derivation in pairs, and where pairs cannot tell either, in integers.
 //!
-//! With v = u² = 2⁻¹⁰⁶, m the larger of o·o and r², and o = c - p exactly a pair, by the errors stated in
+//! With v = u² = 2⁻¹⁰⁶, m the larger of o·o and r², o = c - p exactly a pair, r² too but for what underflows, and by the bounds in
 //! [`pair`](crate::arithmetic::pair):
 //!
 //! ```text
@@ -25,6 +25,9 @@ use crate::chord::{Chord, Derivation};
 use crate::float::sqrt;
 use crate::geometric::ClosestApproach;
 use crate::{Ray, Scalar, Sphere, Vector};
+
+#[cfg(test)]
+mod tests;
 
 /// Of a in itself, of h in |o| |d|, of o·o in itself: a product and two additions.
 const DOT_ERROR: f64 = PRODUCT_ERROR + 2.0 * SUM_ERROR;
@@ -139,9 +142,9 @@ pub(crate) fn crossings<S: Target>(line: &Line) -> Option<Crossings<S>> {
 }
 
 /// What pairs say.
-enum InPairs<S> {
+enum InPairs<T> {
     Miss,
-    Hit(Crossings<S>),
+    Hit(T),
     Doubt,
 }
 
@@ -179,12 +182,14 @@ impl Scaled {
         })
     }
 
-    fn crossings<S: Target>(&self) -> InPairs<S> {
-        let d = self.d.map(Pair::from);
+    fn chord(&self) -> (Chord<Pair>, Pair) {
         let radius = Pair::from(self.radius);
         let radius_squared = radius * radius;
-        let Chord { a, h, distance_squared, power, discriminant } =
-            ClosestApproach::chord(self.o, d, radius_squared);
+        (ClosestApproach::chord(self.o, self.d.map(Pair::from), radius_squared), radius_squared)
+    }
+
+    fn estimate(&self) -> InPairs<Estimate> {
+        let (Chord { a, h, distance_squared, power, discriminant }, radius_squared) = self.chord();
 
         let larger = distance_squared.hi.max(radius_squared.hi);
         let discriminant_error = DISCRIMINANT_ERROR * (a.hi * larger);
@@ -201,27 +206,46 @@ impl Scaled {
         let sum = h.abs() + half_chord;
         let sum_error =
             DOT_ERROR * sqrt(a.hi * distance_squared.hi) + discriminant_error / half_chord.hi;
-        if sum_error > S::NORMAL_ERROR * (self.radius * sqrt(a.hi)) {
-            return InPairs::Doubt;
-        }
 
         // The root that does not cancel, and the other one from the product of the roots, power / a.
         // The errors of quotients are doubled for their terms of second order.
         let sum_relative_error = 2.0 * (sum_error / sum.hi) + ROOT_QUOTIENT_ERROR;
-        let settle =
-            |t: Pair, relative_error| S::settle(scale(t.hi, self.root_exponent), relative_error);
-        let (Some(x), Some(y)) = (
-            settle(with_sign_of(h, sum / a), sum_relative_error),
-            settle(
-                with_sign_of(h, power / sum),
-                sum_relative_error + 2.0 * (power_error / power.hi.abs()),
-            ),
-        ) else {
+        let power_relative_error = 2.0 * (power_error / power.hi.abs());
+        let x = (with_sign_of(h, sum / a), sum_relative_error);
+        let y = (with_sign_of(h, power / sum), sum_relative_error + power_relative_error);
+        InPairs::Hit(Estimate { a, half_chord, sum_error, roots: [x, y] })
+    }
+
+    fn crossings<S: Target>(&self) -> InPairs<Crossings<S>> {
+        let Estimate { a, half_chord, sum_error, roots } = match self.estimate() {
+            InPairs::Miss => return InPairs::Miss,
+            InPairs::Hit(estimate) => estimate,
+            InPairs::Doubt => return InPairs::Doubt,
+        };
+        if sum_error > S::NORMAL_ERROR * (self.radius * sqrt(a.hi)) {
+            return InPairs::Doubt;
+        }
+        let [Some(x), Some(y)] = roots
+            .map(|(t, relative_error)| S::settle(scale(t.hi, self.root_exponent), relative_error))
+        else {
             return InPairs::Doubt;
         };
         let t = if y < x { [y, x] } else { [x, y] };
+        let d = self.d.map(Pair::from);
+        let radius = Pair::from(self.radius);
         InPairs::Hit(Crossings::new(t, d, self.o.cross(d), a, half_chord, radius))
     }
+}
+
+/// The chord in pairs, where its signs are certain.
+struct Estimate {
+    a: Pair,
+    /// √discriminant.
+    half_chord: Pair,
+    /// How far off |h| and half the chord may be together.
+    sum_error: f64,
+    /// Each with its relative error, in no order.
+    roots: [(Pair, f64); 2],
 }
 
 /// `magnitude` with the sign of `h`.

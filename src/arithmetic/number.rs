@@ -80,3 +80,31 @@ impl From<Triple<f64>> for DVec3 {
         Self::new(triple.x, triple.y, triple.z)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// That the operations are those of vectors, and that `one` is 1.
+    fn check<N: Number>(number: impl Fn(f64) -> N) {
+        let triple = |x, y, z| Triple { x, y, z }.map(&number);
+        let (a, b) = (triple(2.0, -3.0, 5.0), triple(7.0, 11.0, -13.0));
+        assert_eq!(a.dot(b).to_f64(), -84.0);
+        assert_eq!(DVec3::from(a.cross(b).map(N::to_f64)), DVec3::new(-16.0, 61.0, 43.0));
+        let difference = a.zip(b, |a, b| a - b * N::ONE / N::ONE);
+        assert_eq!(DVec3::from(difference.map(N::to_f64)), DVec3::new(-5.0, -14.0, 18.0));
+    }
+
+    #[test]
+    fn triples_are_vectors_of_any_number() {
+        check(|x| x);
+        check(Pair::from);
+        let vector = DVec3::new(1.0, 2.0, 3.0);
+        assert_eq!(DVec3::from(Triple::from(vector)), vector);
+    }
+
+    #[test]
+    fn a_pair_rounds_to_its_high_part() {
+        assert_eq!(Pair { hi: 1.0, lo: f64::EPSILON / 2.0 }.to_f64(), 1.0);
+    }
+}
