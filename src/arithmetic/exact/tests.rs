@@ -129,6 +129,24 @@ fn many_terms_carry() {
 }
 
 #[test]
+fn sums_of_many_are_longer_than_their_terms() {
+    // The longest product, shifted as far as it can be within a digit.
+    let ones = 2.0 - f64::EPSILON;
+    let factors = [ones * 2_f64.powi(15), ones, ones, ones];
+    for times in [2, -2] {
+        let mut sum = Sum::zero();
+        for _ in 0..20_000 {
+            sum.add(times, factors);
+        }
+        let exact = Both { terms: vec![(20_000 * times, factors)] }.exact();
+        let value = sum.value();
+        assert_eq!(i64::from(value.exponent()), exact.magnitude());
+        let bound = &value_error() * &exact.clone().abs();
+        assert!(part_of_bound(&number(value), &exact, &bound) <= 1.0);
+    }
+}
+
+#[test]
 fn values_of_sums_keep_their_bound() {
     // A leading digit of 1, and below the 97 bits kept nothing but ones.
     let start =
