@@ -16,6 +16,9 @@ use crate::refine::{self, Crossings, Line, Target};
 use crate::second_try::{Estimate, Root, SecondTry, second_try};
 use crate::{Hit, Ray, Sphere};
 
+#[cfg(test)]
+mod tests;
+
 /// Whether a square, a or the larger of o·o and r², is between 2⁻⁴⁸⁰ and 2⁴⁸⁰: then no product of two of them overflows, and
 /// what underflows on the way is far below the error bounds.
 #[inline(always)]
@@ -26,8 +29,13 @@ fn is_safe(square: f64) -> bool {
     square.to_bits().wrapping_sub(LEAST) < SPAN
 }
 
-/// Of the residual that [`Setting::polish`] takes, in m: what is rounded in it.
-const RESIDUAL_ERROR: f64 = 64.0 * (f64::EPSILON / 2.0) * (f64::EPSILON / 2.0);
+/// Of the residual that [`Setting::polish`] takes, in m, besides its own last place: what is rounded in it.
+///
+/// To first order, in u² m, and at the far root of a ray from the surface through the center, t |d| = 2 |o|, where it is most:
+/// of the compensated a and h 32 each, and of o·o 8; of the products with what was rounded in o 12, of the product a.lo t 12,
+/// of the additions up to `slope_low` 16 + 28 + 32 + 32, of its product with t 32; of `power_low` 1 + 6 + 4 + 6 + 6; and of the
+/// last additions 38 + 38. That makes 335.
+const RESIDUAL_ERROR: f64 = 340.0 * (f64::EPSILON / 2.0) * (f64::EPSILON / 2.0);
 
 /// A line and a sphere.
 struct Setting {
@@ -67,16 +75,23 @@ impl Setting {
     ///
     /// One step of Newton's on the quadratic f(t) = a t² - 2 h t + power, whose slope at the roots is ∓2 √discriminant. By the
     /// bounds of the first try, e = [`RELATIVE_ERROR`](crate::first_try::RELATIVE_ERROR) = 2⁻³⁴·⁸ for t and as much for the
-    /// slope, and with t a ≤ 2 |o| |d| and √discriminant ≥ √CLEAR |o| |d|, the relative error after it is at most
+    /// slope, and with t a ≤ 2 √(a m) and √discriminant ≥ √(CLEAR a m), the relative error after it is at most
     /// e² t a / (2 √discriminant) ≤ e² / √CLEAR < 2⁻⁶² for the curvature, e² for the slope, and what f is off by: no rounding
-    /// error of a leading term is lost, and those of the others are below 64 u² m, which moves t by less than 2⁻⁷⁵ of itself.
+    /// error of a leading term is lost, and those of the others are [`RESIDUAL_ERROR`], which moves t by less than 2⁻⁷⁵ of itself.
     /// The final sum is rounded, by half an ulp.
     #[inline(always)]
     fn polish(&self, numerator: f64, denominator: f64, half_chord: f64) -> (f64, DVec3) {
         let t = numerator / denominator;
         // Taken here, because here the division does not have to wait for anything.
         let inverse_slope = (2.0 * half_chord).recip();
+        let correction = self.residual(t) * inverse_slope;
+        (t + correction, self.offset(t, correction))
+    }
 
+    /// a t² - 2 h t + power for a `t` near a root, so that it is nearly all cancellation: off by a unit in its own last place,
+    /// and [`RESIDUAL_ERROR`].
+    #[inline(always)]
+    fn residual(&self, t: f64) -> f64 {
         // The coefficients, which need not wait for t.
         let d = Triple::from(self.direction);
         let o_exact = Triple::from(self.center).zip(Triple::from(self.origin), two_difference);
@@ -95,10 +110,7 @@ impl Setting {
         let slope = two_difference(at.hi, 2.0 * h.hi);
         let slope_low = slope.lo + (at.lo + (a.lo * t - 2.0 * h_low));
         let product = two_product(slope.hi, t);
-        let residual = (product.hi + power.hi) + (product.lo + (slope_low * t + power_low));
-
-        let correction = residual * inverse_slope;
-        (t + correction, self.offset(t, correction))
+        (product.hi + power.hi) + (product.lo + (slope_low * t + power_low))
     }
 
     /// From the center to where the ray is at `t + correction`: `(t + correction) d - o`.
