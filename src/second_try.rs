@@ -24,6 +24,9 @@ use crate::chord::{Chord, Derivation};
 use crate::float::sqrt;
 use crate::geometric::ClosestApproach;
 
+#[cfg(test)]
+mod tests;
+
 /// u = 2⁻⁵³.
 const U: f64 = f64::EPSILON / 2.0;
 /// Of h, in |o| |d|.

@@ -54,6 +54,18 @@ fn ties_go_to_even() {
 }
 
 #[test]
+fn next_to_a_tie_there_is_no_tie() {
+    // The last bit of 53 decides, however far it is to go.
+    for exponent in -1000..=1000 {
+        for x in [1.0 + f64::EPSILON, 1.5 - f64::EPSILON, 1.5 + f64::EPSILON, 1.0 - f64::EPSILON] {
+            for end in -1076..=-1073 {
+                check(x * 2_f64.powi(exponent), end - exponent);
+            }
+        }
+    }
+}
+
+#[test]
 fn the_ends_of_the_range_scale() {
     let tiny = f64::from_bits(1);
     for x in [tiny, f64::MIN_POSITIVE, 1.0, f64::MAX, 2.0 - f64::EPSILON] {
