@@ -2,8 +2,8 @@
 //! hierarchy of boxes around them, by the crate obvhs.
 //!
 //! ```text
-//! cargo run --release --example many_spheres
-//! cargo run --release --example many_spheres -- --largest 10000 --rays 1000000
+//! cargo run --release --manifest-path examples/many_spheres/Cargo.toml
+//! cargo run --release --manifest-path examples/many_spheres/Cargo.toml -- --largest 10000 --rays 1000000
 //! ```
 //!
 //! The hierarchy takes longer to build, and is worth it for more than a few hundred spheres. Half of the rays are eye rays, the other half leave the surfaces that those have met. Both ways must give the same hits,
@@ -105,10 +105,10 @@ fn measure(count: u32, eye_rays: &[Ray], ray_count: u32) -> Result<Row, String> 
     rays.extend(cloud::bounce_rays(&hits, ray_count - ray_count / 2));
     // A scan takes as much longer as there are more spheres: of a large cloud, some of the rays have to do.
     let every = 1 + count as usize / 2_000;
-    let some: Vec<Ray> = rays.iter().copied().step_by(every).collect();
+    let sample: Vec<Ray> = rays.iter().copied().step_by(every).collect();
 
     let scanned = |ray: &Ray| scan.nearest(ray, 0.0..f32::INFINITY);
-    for ray in &some {
+    for ray in &sample {
         let (expected, found) = (scanned(ray), hierarchy.nearest(ray));
         if found != expected {
             return Err(format!(
@@ -117,19 +117,19 @@ fn measure(count: u32, eye_rays: &[Ray], ray_count: u32) -> Result<Row, String> 
         }
     }
     Ok(Row {
-        scan: Cost { build: scan_build, a_ray: nanoseconds(&some, scanned) },
+        scan: Cost { build: scan_build, a_ray: nanoseconds(&sample, scanned) },
         hierarchy: Cost {
             build: hierarchy_build,
             a_ray: nanoseconds(&rays, |ray| hierarchy.nearest(ray)),
         },
-        compared: some.len(),
+        compared: sample.len(),
     })
 }
 
 fn timed<T>(make: impl FnOnce() -> T) -> (T, Duration) {
     let start = Instant::now();
-    let made = make();
-    (made, start.elapsed())
+    let result = make();
+    (result, start.elapsed())
 }
 
 /// How long a query takes.
