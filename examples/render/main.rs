@@ -11,7 +11,7 @@
 //! cargo run --release --example render -- --width 800 --height 450 --samples 1024 --output examples/render.png
 //! ```
 //!
-//! The crate makes the eye rays ([`eyeray::Camera`]), finds what they meet ([`eyeray::nearest`]), tells whether a lamp
+//! The crate makes the eye rays ([`eyeray::Camera`]), finds what they meet ([`eyeray::Spheres::nearest`]), tells whether a lamp
 //! is in sight ([`eyeray::Hittable::occludes`]) and starts every later ray ([`eyeray::Hit::spawn`]). There is no
 //! smallest distance to tune: each range starts at 0, and no surface shadows itself.
 

@@ -2,7 +2,7 @@
 
 use std::f32::consts::{PI, TAU};
 
-use eyeray::{Hit, Hittable, Ray, Sphere, nearest};
+use eyeray::{Hit, Hittable, Ray, Sphere};
 use glam::Vec3;
 
 use crate::material::Material;
@@ -16,7 +16,7 @@ pub(crate) fn radiance(scene: &Scene, mut ray: Ray, sampler: &mut Sampler) -> Ve
     // A diffuse surface asks every lamp for its light: met by chance as well, that light would count twice.
     let mut lamps_counted = false;
     for bounce in 0.. {
-        let Some((index, hit)) = nearest(&scene.spheres, &ray, 0.0..f32::INFINITY) else {
+        let Some((index, hit)) = scene.spheres.nearest(&ray, 0.0..f32::INFINITY) else {
             radiance += throughput * sky(ray.direction);
             break;
         };
@@ -53,7 +53,7 @@ fn lamplight(scene: &Scene, hit: &Hit, sampler: &mut Sampler) -> Vec3 {
     let mut irradiance = Vec3::ZERO;
     for (lamp, emitted) in scene.lamps() {
         let [a, b, ..] = sampler.draw();
-        let (direction, solid_angle) = toward(lamp, hit.point, a, b);
+        let (direction, solid_angle) = toward(&lamp, hit.point, a, b);
         let cosine = direction.dot(hit.normal);
         if cosine <= 0.0 {
             continue;

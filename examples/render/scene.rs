@@ -2,20 +2,20 @@
 
 use std::f32::consts::TAU;
 
-use eyeray::{Camera, CameraError, Sphere, ViewRect};
+use eyeray::{Camera, CameraError, Sphere, Spheres, ViewRect};
 use glam::{Vec3, vec3};
 
 use crate::material::Material::{self, Glass, Glossy, Lamp, Matte, Metal};
 
 /// The spheres, and what each is made of, in the same order.
 pub(crate) struct Scene {
-    pub(crate) spheres: Vec<Sphere>,
+    pub(crate) spheres: Spheres,
     pub(crate) materials: Vec<Material>,
 }
 
 impl Scene {
     pub(crate) fn new() -> Self {
-        let mut scene = Self { spheres: Vec::new(), materials: Vec::new() };
+        let mut scene = Self { spheres: Spheres::new(), materials: Vec::new() };
         scene.add(vec3(0.0, -100.5, -1.0), 100.0, Matte(vec3(0.55, 0.5, 0.45)));
 
         let (red, amber, teal) =
@@ -55,7 +55,7 @@ impl Scene {
     }
 
     /// The lamps, each with its radiance.
-    pub(crate) fn lamps(&self) -> impl Iterator<Item = (&Sphere, Vec3)> {
+    pub(crate) fn lamps(&self) -> impl Iterator<Item = (Sphere, Vec3)> {
         self.spheres.iter().zip(&self.materials).filter_map(|(sphere, material)| match material {
             Lamp(radiance) => Some((sphere, *radiance)),
             _ => None,
