@@ -346,7 +346,11 @@ fn ulps(value: f64) -> String {
 }
 
 fn worst(value: f64, correctly_rounded: bool) -> String {
-    if correctly_rounded { format!("{} ✓", ulps(value)) } else { ulps(value) }
+    if correctly_rounded && value.is_finite() {
+        format!("{} ✓", ulps(value))
+    } else {
+        ulps(value)
+    }
 }
 
 /// A Markdown table, aligned to be read as plain text too.
