@@ -15,7 +15,7 @@ mod methods;
 #[path = "../tests/support/mod.rs"]
 mod support;
 
-use measure::arguments::Arguments;
+use measure::arguments::{Arguments, Effort};
 use measure::comparison::Comparisons;
 use measure::{conditions, stored_of, sum_of};
 
@@ -70,5 +70,7 @@ fn main() {
     let mut comparisons = Comparisons::new(arguments.effort);
     rows_f32(&mut comparisons);
     rows_f64(&mut comparisons);
-    println!("{}\n\n{comparisons}", conditions::line());
+    if arguments.effort != Effort::Test {
+        println!("{}\n\n{comparisons}", conditions::line());
+    }
 }

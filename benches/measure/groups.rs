@@ -26,6 +26,7 @@ pub const GROUPS: [Group; 6] = [
             "grazing from afar",
             "exact tangent",
             "tangent's neighbor",
+            "near tangent",
             "point sphere",
         ],
     },
