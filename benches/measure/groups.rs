@@ -45,6 +45,7 @@ pub const GROUPS: [Group; 6] = [
             "random finite bits",
             "exact tie",
             "near tie",
+            "hard to round",
         ],
     },
 ];
