@@ -138,6 +138,17 @@ fn both_roots_keep_their_bound() {
 }
 
 #[test]
+fn signs_of_powers_are_certain() {
+    // From the surface, or as little outside as can be, the power that looks most like one from inside.
+    let lies = [1e-17, 1e-16].map(|power| Lie { power, discriminant: 0.5 });
+    let part = |case: &Case| {
+        let certain = SIGN_CERTAIN * case.radius_squared;
+        (!case.exact.power.is_negative()).then_some(-case.chord.power / certain)
+    };
+    assert!(search_chords::<Quadratic>("sign of a power", &lies, part) > 0.2);
+}
+
+#[test]
 fn what_is_certain_is_right() {
     // Signs of the power and of the discriminant, down to their errors.
     let lie = |power: f64, discriminant: f64| Lie { power, discriminant };

@@ -187,6 +187,38 @@ fn what_pairs_are_certain_of_is_right() {
 }
 
 #[test]
+fn pairs_are_not_certain_of_tangents() {
+    // Tangents with the direction (3, 4, 0) and the normal (-4, 3, 0), moved by what pairs can hardly see.
+    let mut random = Random::new(5);
+    let (mut doubts, count) = (0, 2000);
+    for _ in 0..count {
+        let long = (random.mantissa() * 2_f64.powi(49)).round();
+        let radius = (random.mantissa() * 2_f64.powi(47)).round();
+        let along = f64::from(random.integer(-1000..=1000)) * 2_f64.powi(37);
+        let aside = random.float(-60..=-40);
+        let center = [3.0 * along - 4.0 * radius, 4.0 * along + 3.0 * radius];
+        let direction = [3.0 * long, 4.0 * long];
+        let numbers = [
+            center[0],
+            center[1],
+            0.0,
+            0.0,
+            aside,
+            0.0,
+            direction[0],
+            direction[1],
+            0.0,
+            5.0 * radius,
+        ];
+        match roots(&ExactChord::new(numbers), numbers) {
+            Some(part) => assert!(part <= 1.0, "{numbers:?}"),
+            None => doubts += 1,
+        }
+    }
+    assert!((count / 5..count * 4 / 5).contains(&doubts), "{doubts} of {count} in doubt");
+}
+
+#[test]
 fn lines_of_any_size_are_brought_near_1() {
     let mut random = Random::new(2);
     for _ in 0..1000 {
