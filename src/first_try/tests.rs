@@ -25,18 +25,18 @@ impl Case {
         Self { exact: ExactChord::new(numbers), chord, radius_squared }
     }
 
-    fn part(&self, computed: f64, exact: &Dyadic, bound: f64, size: &Dyadic) -> f64 {
+    fn part(computed: f64, exact: &Dyadic, bound: f64, size: &Dyadic) -> f64 {
         part_of_bound(&Dyadic::exactly(computed), exact, &(&Dyadic::exactly(bound) * size))
     }
 
     /// What part of its bound the error of the discriminant takes.
     fn discriminant(&self) -> f64 {
         let size = &self.exact.a * &self.exact.larger();
-        self.part(self.chord.discriminant, &self.exact.discriminant, DISCRIMINANT_ERROR, &size)
+        Self::part(self.chord.discriminant, &self.exact.discriminant, DISCRIMINANT_ERROR, &size)
     }
 
     fn power(&self) -> f64 {
-        self.part(self.chord.power, &self.exact.power, POWER_ERROR, &self.exact.larger())
+        Self::part(self.chord.power, &self.exact.power, POWER_ERROR, &self.exact.larger())
     }
 
     /// What part of its bound the error of the nearest root ahead takes, after a look at whether that is the right answer.
@@ -56,7 +56,7 @@ impl Case {
                     self.exact.roots().expect("there is no root")[usize::from(inside)].clone();
                 assert!(!exact.is_negative(), "the root is behind");
                 let size = exact.clone().abs();
-                Some(self.part(numerator / denominator, &exact, RELATIVE_ERROR, &size))
+                Some(Self::part(numerator / denominator, &exact, RELATIVE_ERROR, &size))
             }
         }
     }
@@ -73,7 +73,7 @@ impl Case {
                 assert!(half_chord > 0.0);
                 let exact = self.exact.roots().expect("the line misses");
                 let parts = [0, 1].map(|side: usize| {
-                    self.part(t[side], &exact[side], RELATIVE_ERROR, &exact[side].clone().abs())
+                    Self::part(t[side], &exact[side], RELATIVE_ERROR, &exact[side].clone().abs())
                 });
                 Some(parts[0].max(parts[1]))
             }
