@@ -52,6 +52,10 @@ impl Case {
             }
             FirstTry::Root { numerator, denominator, half_chord } => {
                 assert_eq!(half_chord < 0.0, inside, "a ray leaves where it starts inside");
+                if !inside && self.exact.h.is_negative() {
+                    assert!(numerator / denominator < 0.0, "there is no root ahead");
+                    return Some(0.0);
+                }
                 let exact =
                     self.exact.roots().expect("there is no root")[usize::from(inside)].clone();
                 assert!(!exact.is_negative(), "the root is behind");
@@ -146,6 +150,24 @@ fn signs_of_powers_are_certain() {
         (!case.exact.power.is_negative()).then_some(-case.chord.power / certain)
     };
     assert!(search_chords::<Quadratic>("sign of a power", &lies, part) > 0.2);
+}
+
+#[test]
+fn signs_of_the_closest_approach_are_certain() {
+    // At right angles to the center as nearly as can be, what looks most like a center behind and is not.
+    let start = |random: &mut Random| {
+        let mut numbers = setting(random, Lie { power: 1e-15, discriminant: -1e-15 });
+        let [cx, cy, cz, px, py, pz, dx, dy, ..] = numbers;
+        numbers[8] = -((cx - px) * dx + (cy - py) * dy) / (cz - pz);
+        numbers
+    };
+    let part = |numbers| {
+        let case = Case::new::<Quadratic>(numbers);
+        let Chord { a, h, distance_squared, .. } = case.chord;
+        let certain = (H_ERROR_SQUARED * (a * distance_squared)).sqrt();
+        (!case.exact.h.is_negative()).then_some(-h / certain)
+    };
+    assert!(search("sign of the closest approach", 300, 100, start, part) > 0.05);
 }
 
 #[test]
