@@ -71,7 +71,7 @@ impl Setting {
         (is_safe(chord.a) && is_safe(larger)).then_some(chord)
     }
 
-    /// The root near `numerator / denominator`, and where it is from the center.
+    /// The root near `t`, and where it is from the center.
     ///
     /// One step of Newton's on the quadratic f(t) = a t² - 2 h t + power, whose slope at the roots is ∓2 √discriminant. By the
     /// bounds of the first try, e = [`RELATIVE_ERROR`](crate::first_try::RELATIVE_ERROR) = 2⁻³⁴·⁸ for t and as much for the
@@ -80,8 +80,7 @@ impl Setting {
     /// error of a leading term is lost, and those of the others are [`RESIDUAL_ERROR`], which moves t by less than 2⁻⁷⁵ of itself.
     /// The final sum is rounded, by half an ulp.
     #[inline(always)]
-    fn polish(&self, numerator: f64, denominator: f64, half_chord: f64) -> (f64, DVec3) {
-        let t = numerator / denominator;
+    fn polish(&self, t: f64, half_chord: f64) -> (f64, DVec3) {
         // Taken here, because here the division does not have to wait for anything.
         let inverse_slope = (2.0 * half_chord).recip();
         let correction = self.residual(t) * inverse_slope;
@@ -142,7 +141,11 @@ impl Precision for DVec3 {
             match nearest_ahead(&chord, setting.radius_squared) {
                 FirstTry::Miss => return None,
                 FirstTry::Root { numerator, denominator, half_chord } => {
-                    let (t, offset) = setting.polish(numerator, denominator, half_chord);
+                    let t = numerator / denominator;
+                    if t < 0.0 {
+                        return None;
+                    }
+                    let (t, offset) = setting.polish(t, half_chord);
                     // Below the range, the other root may be in it.
                     if t >= range.start && t > 0.0 {
                         let normal = offset / sphere.radius;
@@ -164,8 +167,8 @@ impl Precision for DVec3 {
                 BothRoots::Miss => return None,
                 BothRoots::Roots { t: [near, far], half_chord } => {
                     return Some([
-                        setting.polish(near, 1.0, half_chord).0,
-                        setting.polish(far, 1.0, -half_chord).0,
+                        setting.polish(near, half_chord).0,
+                        setting.polish(far, -half_chord).0,
                     ]);
                 }
                 BothRoots::Doubt => {}
@@ -213,9 +216,10 @@ fn settle(estimate: &Estimate, setting: &Setting) -> Option<Crossings<f64>> {
     let larger = o.length_squared().max(setting.radius_squared);
     let polish = |root: Root, half_chord: f64| {
         let Root { numerator, denominator, relative_error } = root;
-        let (t, offset) = setting.polish(numerator, denominator, half_chord);
-        // As derived there: what the curvature, the slope and the residual leave, in t.
+        let t = numerator / denominator;
         let step = relative_error * t.abs();
+        let (t, offset) = setting.polish(t, half_chord);
+        // As derived there: what the curvature, the slope and the residual leave, in t.
         let left = (step * (step * a + 2.0 * error) + RESIDUAL_ERROR * larger) / half_chord.abs();
         let along = setting.radius * f64::NORMAL_ERROR;
         let settled = left < f64::EPSILON / 8.0 * t.abs() && left * left * a < along * along;

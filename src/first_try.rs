@@ -56,7 +56,8 @@ const SIGN_CERTAIN: f64 = POWER_ERROR + U;
 pub(crate) enum FirstTry {
     /// There is none.
     Miss,
-    /// This one, or very nearly: `numerator / denominator`, with a relative error of at most [`RELATIVE_ERROR`].
+    /// This one, or very nearly: `numerator / denominator`, with a relative error of at most [`RELATIVE_ERROR`]. Where that is
+    /// negative, its sign is certain, and there is none ahead.
     Root {
         numerator: f64,
         denominator: f64,

@@ -72,7 +72,7 @@ fn polished_roots_are_the_nearest_or_next_to_it() {
         let (roots, half_chord) = first_roots(setting)?;
         let expected = exact.roots().expect("this hits");
         let parts = [(0, half_chord), (1, -half_chord)].map(|(side, half_chord): (usize, f64)| {
-            let (t, _) = setting.polish(roots[side], 1.0, half_chord);
+            let (t, _) = setting.polish(roots[side], half_chord);
             let unit = f64::from_bits(t.abs().to_bits() + 1) - t.abs();
             let rest = &Dyadic::exactly(2_f64.powi(-62)) * &expected[side].clone().abs();
             let bound = &Dyadic::exactly(unit / 2.0) + &rest;

@@ -1,4 +1,9 @@
+use super::integers::*;
+use super::pairs::*;
 use super::*;
+use crate::arithmetic::pair::V;
+use crate::arithmetic::scaling::scale;
+use crate::chord::Chord;
 use crate::testing::{
     Dyadic, ExactChord, Lie, Random, exactly, nearest, part_of_bound, search, setting,
 };
