@@ -185,8 +185,10 @@ impl Precision for DVec3 {
 #[inline(always)]
 fn clearance(sphere: &Sphere<DVec3>) -> f64 {
     const EIGHT_ULPS: f64 = 8.0 * f64::EPSILON;
-    let center = sphere.center.abs().max_element();
-    (center * EIGHT_ULPS + sphere.radius * EIGHT_ULPS).max(8.0 * f64::from_bits(1))
+    const EIGHT_LEAST: f64 = f64::from_bits(8);
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let DVec3 { x, y, z } = sphere.center.abs();
+    larger(larger(x, y), z) * EIGHT_ULPS + (sphere.radius * EIGHT_ULPS + EIGHT_LEAST)
 }
 
 /// Both crossings where the first try left a doubt.

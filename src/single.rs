@@ -98,17 +98,9 @@ impl Precision for Vec3 {
 /// The hit at `t`, with `offset` from the center to it.
 #[inline(always)]
 fn found(sphere: &Sphere, t: f32, offset: DVec3) -> Found<Vec3> {
-    /// Between its inverse and this, neither a radius nor its reciprocal is subnormal.
-    const ORDINARY: f32 = 1e30;
-    // Rounded here and once more in what follows: that is 1 ulp for the point, and with the reciprocal's rounding 1.5 ulp
-    // of 1 for the normal.
-    let rounded = offset.as_vec3();
-    let normal = if sphere.radius > ORDINARY.recip() && sphere.radius < ORDINARY {
-        rounded * sphere.radius.recip()
-    } else {
-        (offset / f64::from(sphere.radius)).as_vec3()
-    };
-    Found { t, offset: rounded, normal }
+    let normal = offset * f64::from(sphere.radius).recip();
+    // The point is rounded here and once more when it is added to the center: 1 ulp.
+    Found { t, offset: offset.as_vec3(), normal: normal.as_vec3() }
 }
 
 /// The hit.
@@ -126,12 +118,16 @@ fn hit(sphere: &Sphere, found: Found<Vec3>) -> Hit {
 /// How far along the normal a spawned ray starts.
 ///
 /// With m = max |center coordinate| + radius, an ulp of m is at most 2⁻²³ m. The point is off by at most 1.5 ulp a coordinate
-/// and the spawned origin is rounded by half an ulp a coordinate, together at most 2 √3 < 3.47 ulp of distance. So 4 ulp, and
-/// the smallest of numbers where an ulp is no smaller than that.
+/// and the spawned origin is rounded by half an ulp a coordinate, together at most 2 √3 < 3.47 ulp of distance. So 4 ulp, and 4
+/// of the smallest numbers, where an ulp is no smaller than that.
 #[inline(always)]
 fn clearance(center: Vec3, radius: f32) -> f32 {
     const FOUR_ULPS: f32 = 4.0 * f32::EPSILON;
-    (center.abs().max_element() * FOUR_ULPS + radius * FOUR_ULPS).max(4.0 * f32::from_bits(1))
+    const FOUR_LEAST: f32 = f32::from_bits(4);
+    // Not `f32::max`, which takes care of NaN: here there is none.
+    let larger = |a: f32, b: f32| if a > b { a } else { b };
+    let Vec3 { x, y, z } = center.abs();
+    larger(larger(x, y), z) * FOUR_ULPS + (radius * FOUR_ULPS + FOUR_LEAST)
 }
 
 /// Both crossings where the first try left a doubt.

@@ -12,16 +12,20 @@ use lanes::Vectorized;
 #[doc(hidden)]
 pub use lanes::Lanes;
 
-use crate::{Hit, Hittable, Ray, Sphere};
+use crate::{Hit, Hittable, Ray, Sphere, nearest};
 
 /// How many blocks have a bit for each sphere in one word.
 const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 
+/// Up to how many spheres are asked one by one: to set out for the filter takes as long as that.
+const FEW: usize = 2;
+
 /// Many spheres in `f32`, of which a ray meets the nearest.
 ///
-/// It answers what [`nearest`](crate::nearest) answers for a slice of the same spheres, bit for bit: the same index, the lowest among equal
-/// distances, and the same hit. It is several times as fast: most spheres are dropped in single precision, many at a time,
-/// by a test whose error is bounded, so that it never drops a sphere that is hit; the others are asked exactly.
+/// It answers what [`nearest`] answers for a slice of the same spheres, bit for bit: the same index, the lowest
+/// among equal distances, and the same hit. It is several times as fast: most spheres are dropped in single precision, many at
+/// a time, by a test whose error is bounded, so that it never drops a sphere that is hit; the others are asked exactly.
+///
 /// Any spheres are allowed. Those that nothing can meet, with a NaN, an infinity or a negative radius, cost no more than
 /// others; one with a coordinate or a radius beyond 2⁶⁰ is asked exactly by every ray. So are all spheres by a ray whose
 /// origin has a coordinate beyond 2⁶⁰ or whose direction is shorter than 2⁻³⁰ or longer than 2³⁰.
@@ -29,7 +33,7 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 /// # When to use it
 ///
 /// For eight spheres and more it is faster than a loop over any formula, and for fewer no slower than
-/// [`nearest`](crate::nearest). The time that a ray takes is still proportional to the number of spheres: from some thousands
+/// [`nearest`]. The time that a ray takes is still proportional to the number of spheres: from some thousands
 /// on, most of it goes into spheres far from the ray. A bounding volume hierarchy skips those in groups, and is the better
 /// choice there. (`cargo bench --bench spheres` measures 1 to 65,536.)
 ///
@@ -126,6 +130,9 @@ impl Spheres {
     /// Which sphere the ray meets first with `t` in `range`, and where: of equal `t`, the lowest index.
     #[inline]
     pub fn nearest(&self, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
+        if self.len() <= FEW {
+            return nearest(&self.spheres, ray, range);
+        }
         self.nearest_in_lanes(Lanes::best(), ray, range)
     }
 
@@ -253,6 +260,9 @@ impl Hittable for Spheres {
     /// Stops at the first sphere found that blocks the ray.
     #[inline]
     fn occludes(&self, ray: &Ray, range: Range<f32>) -> bool {
+        if self.len() <= FEW {
+            return self.spheres.occludes(ray, range);
+        }
         self.occludes_in_lanes(Lanes::best(), ray, range)
     }
 }
