@@ -33,7 +33,7 @@
 //! - [`nearest`] says which of many objects is met first, and `Spheres` does so for many spheres at a time, sooner.
 //!
 //! All of it is for glam's vectors, [`Vec3`](glam::Vec3) by default and [`DVec3`](glam::DVec3) for twice the precision: see
-//! [`Vector`].
+//! [`Vector`]. `From` takes rays, spheres and hits to `f64` exactly, and `to_f32` rounds the plain data back.
 //!
 //! The formulas are those of S. Marschner's CS4620 lecture 6, *Ray Tracing Basics*, generalized to any center, radius and
 //! length of direction. There are no materials, no triangles, no colors and no acceleration structures here.
@@ -42,10 +42,13 @@
 //!
 //! - `std`, the default: square roots from the hardware, and `alloc`.
 //! - `libm`: for `no_std`, square roots from the [libm](https://docs.rs/libm) crate. One of `std` and `libm` is needed.
+//!   [`Sphere`]'s `intersect` takes 41 kB of a Cortex-M4F's code in `f32`, 48 kB in `f64` and 69 kB in both, optimized for size
+//!   and with the `f64` arithmetic that its hardware lacks (`tests/targets/run`).
 //! - `alloc`: `Spheres`, and [`Hittable`] for boxes. Implied by `std`.
 //! - `serde`: `Serialize` and `Deserialize` for all data types. A [`Camera`] is checked again when it is deserialized.
 //! - `bytemuck`: `Pod` and `Zeroable` for [`Ray`] and [`Sphere`], to hand them to a GPU as bytes.
 //! - `approx-05`: `AbsDiffEq`, `RelativeEq` and `UlpsEq` of approx 0.5, named as glam names its own.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![cfg_attr(not(any(test, feature = "std")), no_std)]
 #![cfg_attr(
     not(any(feature = "bytemuck", all(feature = "std", target_arch = "x86_64"))),

@@ -32,10 +32,10 @@ const FEW: usize = 2;
 ///
 /// # When to use it
 ///
-/// For eight spheres and more it is faster than a loop over any formula, and for fewer no slower than
-/// [`nearest`]. The time that a ray takes is still proportional to the number of spheres: from some thousands
-/// on, most of it goes into spheres far from the ray. A bounding volume hierarchy skips those in groups, and is the better
-/// choice there. (`cargo bench --bench spheres` measures 1 to 65,536.)
+/// For eight spheres and more it is faster than a loop over any formula, and for fewer no slower than [`nearest`]. The time
+/// that a ray takes is still proportional to the number of spheres: from about a thousand on, most of it goes into spheres far
+/// from the ray. A bounding volume hierarchy skips those in groups, and is the better choice there; it can be built on
+/// [`Sphere::bounds`]. (`cargo bench --bench spheres` measures 1 to 65,536, and `examples/many_spheres` has a hierarchy.)
 ///
 /// # How fast it can be
 ///
