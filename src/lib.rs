@@ -62,6 +62,9 @@ compile_error!(
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
+// The families of cases, which the unit tests share with the other tests, call the crate by its name.
+#[cfg(test)]
+extern crate self as eyeray;
 
 mod algebraic;
 mod arithmetic;

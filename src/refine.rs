@@ -91,6 +91,13 @@ pub(crate) trait Target: Scalar {
     fn settle_exactly(t: f64, compare: impl FnOnce(f64) -> Ordering) -> Self;
 }
 
+/// Whether only integers can tell.
+#[cfg(test)]
+pub(crate) fn needs_integers<S: Target>(line: &Line) -> bool {
+    let scaled = Scaled::new(&Exact::new(line));
+    matches!(scaled.map(|scaled| scaled.crossings::<S>()), Some(InPairs::Doubt) | None)
+}
+
 /// Both crossings along the whole line, if there are any.
 #[inline(never)]
 pub(crate) fn crossings<S: Target>(line: &Line) -> Option<Crossings<S>> {

@@ -15,6 +15,9 @@ use crate::refine::{self, Crossings, Line, Target};
 use crate::second_try::{Estimate, SecondTry, second_try};
 use crate::{Hit, Ray, Sphere};
 
+#[cfg(test)]
+mod tests;
+
 /// The first try's error in units of the last of 53 places, at most its relative error over 2⁻⁵³.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "294,912")]
 const MARGIN: u32 = (RELATIVE_ERROR / (f64::EPSILON / 2.0)) as u32;
