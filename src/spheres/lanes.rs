@@ -46,6 +46,10 @@ impl Lanes {
     }
 
     /// Runs the loop with this set of instructions, or with what the crate is compiled for if the machine lacks it.
+    #[cfg_attr(
+        not(all(feature = "std", target_arch = "x86_64")),
+        expect(clippy::unused_self, reason = "there is one set of instructions only")
+    )]
     #[inline(always)]
     pub(crate) fn run<F: Vectorized>(self, f: &F) -> F::Output {
         #[cfg(all(feature = "std", target_arch = "x86_64"))]
