@@ -271,8 +271,8 @@ criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(20)
-        .warm_up_time(Duration::from_millis(200))
-        .measurement_time(Duration::from_millis(500));
+        .warm_up_time(Duration::from_millis(100))
+        .measurement_time(Duration::from_millis(300));
     targets = single_ray_f32, single_ray_f64, nearest_f32, nearest_f64, eye_rays
 }
 criterion_main!(benches);
