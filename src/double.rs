@@ -6,7 +6,7 @@ use core::ops::Range;
 use glam::DVec3;
 
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{compensated_dot, two_difference, two_product};
+use crate::arithmetic::pair::{V, compensated_dot, two_difference, two_product};
 use crate::chord::{Chord, Derivation};
 use crate::first_try::{BothRoots, FirstTry, both_roots, nearest_ahead};
 use crate::geometric::ClosestApproach;
@@ -35,7 +35,7 @@ fn is_safe(square: f64) -> bool {
 /// of the compensated a and h 32 each, and of o·o 8; of the products with what was rounded in o 12, of the product a.lo t 12,
 /// of the additions up to `slope_low` 16 + 28 + 32 + 32, of its product with t 32; of `power_low` 1 + 6 + 4 + 6 + 6; and of the
 /// last additions 38 + 38. That makes 335.
-const RESIDUAL_ERROR: f64 = 340.0 * (f64::EPSILON / 2.0) * (f64::EPSILON / 2.0);
+const RESIDUAL_ERROR: f64 = 340.0 * V;
 
 /// A line and a sphere.
 struct Setting {

@@ -21,11 +21,9 @@
 #[cfg(test)]
 mod tests;
 
+use crate::arithmetic::pair::U;
 use crate::chord::Chord;
 use crate::float::sqrt;
-
-/// u = 2⁻⁵³.
-const U: f64 = f64::EPSILON / 2.0;
 
 /// Of the discriminant, in a m.
 const DISCRIMINANT_ERROR: f64 = 21.0 * U;

@@ -18,7 +18,7 @@
 
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
-    COMPENSATED_DOT_ERROR, Pair, compensated_dot, two_difference, two_product,
+    COMPENSATED_DOT_ERROR, Pair, U, compensated_dot, two_difference, two_product,
 };
 use crate::chord::{Chord, Derivation};
 use crate::float::sqrt;
@@ -27,8 +27,6 @@ use crate::geometric::ClosestApproach;
 #[cfg(test)]
 mod tests;
 
-/// u = 2⁻⁵³.
-const U: f64 = f64::EPSILON / 2.0;
 /// Of h, in |o| |d|.
 const H_ERROR: f64 = 4.0 * U;
 /// Of o × d, in |o| |d|.

@@ -6,6 +6,7 @@ use core::ops::Range;
 use glam::{DVec3, Vec3};
 
 use crate::arithmetic::number::Triple;
+use crate::arithmetic::pair::U;
 use crate::arithmetic::rounding::{round_to_f32, round_to_f32_exactly, rounds_safely};
 use crate::chord::{Chord, Derivation};
 use crate::first_try::{BothRoots, FirstTry, RELATIVE_ERROR, both_roots, nearest_ahead};
@@ -20,7 +21,7 @@ mod tests;
 
 /// The first try's error in units of the last of 53 places, at most its relative error over 2⁻⁵³.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "294,912")]
-const MARGIN: u32 = (RELATIVE_ERROR / (f64::EPSILON / 2.0)) as u32;
+const MARGIN: u32 = (RELATIVE_ERROR / U) as u32;
 
 /// A line and a sphere in `f64`.
 struct Setting {
@@ -137,14 +138,12 @@ fn clearance(center: Vec3, radius: f32) -> f32 {
 #[inline(always)]
 fn crossings(sphere: &Sphere, ray: &Ray) -> Option<Crossings<f32>> {
     let line = Line::new(sphere, ray);
-    match second_try(line.o(), line.direction.into(), line.radius) {
-        SecondTry::Miss => None,
-        SecondTry::Hit(estimate) => match settle(&estimate, &line) {
-            Some(crossings) => Some(crossings),
-            None => refine::crossings(&line),
-        },
-        SecondTry::Doubt => refine::crossings(&line),
-    }
+    let settled = match second_try(line.o(), line.direction.into(), line.radius) {
+        SecondTry::Miss => return None,
+        SecondTry::Hit(estimate) => settle(&estimate, &line),
+        SecondTry::Doubt => None,
+    };
+    settled.or_else(|| refine::crossings(&line))
 }
 
 /// The crossings of the second try, where their errors allow.

@@ -19,8 +19,7 @@ pub(crate) use dyadic::Dyadic;
 
 use crate::arithmetic::pair::Pair;
 
-/// u = 2⁻⁵³.
-pub(crate) const U: f64 = f64::EPSILON / 2.0;
+pub(crate) use crate::arithmetic::pair::U;
 
 /// The exact value of a pair.
 pub(crate) fn exactly(pair: Pair) -> Dyadic {

@@ -12,8 +12,11 @@ use crate::float::sqrt;
 #[cfg(test)]
 mod tests;
 
+/// u = 2⁻⁵³, the rounding error of an `f64` operation.
+pub(crate) const U: f64 = f64::EPSILON / 2.0;
+
 /// v = u² = 2⁻¹⁰⁶.
-pub(crate) const V: f64 = (f64::EPSILON / 2.0) * (f64::EPSILON / 2.0);
+pub(crate) const V: f64 = U * U;
 /// Of a sum or a difference of pairs, in |a| + |b|.
 ///
 /// To first order: the sum of the low parts, each at most u of its number, is rounded by v (|a| + |b|), and with the low part

@@ -8,7 +8,7 @@ use core::cmp::Ordering;
 #[cfg(test)]
 mod tests;
 
-/// Twice the fraction of an `f64` that an `f32` has no room for: 29 bits.
+/// One more than the largest value of the 29 bits of an `f64` that an `f32` has no room for.
 const EXCESS: u32 = 1 << 29;
 /// What lies halfway between two neighboring normal `f32`, within those bits.
 const HALFWAY: u32 = EXCESS / 2;
@@ -25,25 +25,27 @@ pub(crate) fn rounds_safely<const MARGIN: u32>(t: f64) -> bool {
     excess.wrapping_sub(HALFWAY - MARGIN) > 2 * MARGIN
 }
 
+/// The ends of the interval of that relative error around `t`, each rounded.
+#[expect(clippy::cast_possible_truncation, reason = "rounding is what this does")]
+#[inline(always)]
+fn rounded_ends(t: f64, relative_error: f64) -> [f32; 2] {
+    let error = t.abs() * relative_error;
+    [(t - error) as f32, (t + error) as f32]
+}
+
 /// The exact value that `t` is known to be within `relative_error` of, besides the rounding of `t` itself, rounded to `f32`;
 /// or `None` where that cannot be told.
-#[expect(clippy::cast_possible_truncation, reason = "rounding is what this does")]
 pub(crate) fn round_to_f32(t: f64, relative_error: f64) -> Option<f32> {
     // With half an ulp for t, and half for each end.
-    let error = t.abs() * (relative_error + f64::EPSILON);
-    let low = (t - error) as f32;
-    let high = (t + error) as f32;
+    let [low, high] = rounded_ends(t, relative_error + f64::EPSILON);
     // In bits, because an interval around zero has two.
     (low.to_bits() == high.to_bits()).then_some(low)
 }
 
 /// The exact value that `t` is known to be nearly equal to, rounded to `f32`: `compare` says how the exact value compares with
 /// a number.
-#[expect(clippy::cast_possible_truncation, reason = "rounding is what this does")]
 pub(crate) fn round_to_f32_exactly(t: f64, compare: impl FnOnce(f64) -> Ordering) -> f32 {
-    let error = t.abs() * (2.0 * f64::EPSILON);
-    let low = (t - error) as f32;
-    let high = (t + error) as f32;
+    let [low, high] = rounded_ends(t, 2.0 * f64::EPSILON);
     if low == high {
         return low;
     }

@@ -1,7 +1,7 @@
 //! The machine's lanes: runs a loop that the compiler vectorizes with the widest instructions that are there.
 //!
-//! This is the one module with `unsafe` code. What it takes is the promise that the machine has the instructions that a
-//! function was compiled for; until Rust 1.86, even to declare such a function.
+//! The call of a function compiled for more instructions is `unsafe`: it takes the promise that the machine has them. Until
+//! Rust 1.86, so is even to declare such a function. The feature `bytemuck` aside, nothing else in the crate is.
 
 /// A loop for the compiler to vectorize. `run` must be inlined always, to be compiled anew for each set of instructions.
 pub(crate) trait Vectorized {
