@@ -4,10 +4,10 @@ mod filter;
 mod lanes;
 
 use alloc::vec::Vec;
-use core::ops::{ControlFlow, Range};
+use core::ops::Range;
 
-use filter::{Block, LANES, MARGIN, Segment};
-use lanes::Vectorized;
+use filter::{Block, FEW, MARGIN, Segment};
+use lanes::{Instructions, LANES, Vectorized};
 
 #[doc(hidden)]
 pub use lanes::Lanes;
@@ -17,9 +17,6 @@ use crate::{Hit, Hittable, Ray, Sphere, nearest};
 /// How many blocks have a bit for each sphere in one word.
 const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 
-/// Up to how many spheres are asked one by one: to set out for the filter takes as long as that.
-const FEW: usize = 2;
-
 /// Many spheres in `f32`, of which a ray meets the nearest.
 ///
 /// It answers what [`nearest`] answers for a slice of the same spheres, bit for bit: the same index, the lowest
@@ -28,7 +25,7 @@ const FEW: usize = 2;
 ///
 /// Any spheres are allowed. Those that nothing can meet, with a NaN, an infinity or a negative radius, cost no more than
 /// others; one with a coordinate or a radius beyond 2⁶⁰ is asked exactly by every ray. So are all spheres by a ray whose
-/// origin has a coordinate beyond 2⁶⁰ or whose direction is shorter than 2⁻³⁰ or longer than 2³⁰.
+/// origin is farther than 2⁶⁰ from the world's, or whose direction is longer than that or shorter than 2⁻³⁰.
 ///
 /// # When to use it
 ///
@@ -131,7 +128,8 @@ impl Spheres {
     #[inline]
     pub fn nearest(&self, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
         if self.len() <= FEW {
-            return nearest(&self.spheres, ray, range);
+            let near = self.few_near(ray);
+            return if near == 0 { None } else { self.nearest_of_few(near, ray, range) };
         }
         self.nearest_in_lanes(Lanes::best(), ray, range)
     }
@@ -144,73 +142,108 @@ impl Spheres {
         ray: &Ray,
         range: Range<f32>,
     ) -> Option<(usize, Hit)> {
-        let Range { start, mut end } = range;
-        let mut found = None;
-        self.ask_near(lanes, ray, start..end, |index, sphere| {
-            if let Some(hit) = sphere.intersect(ray, start..end) {
-                // The range is half open: what comes later must be strictly nearer.
-                end = hit.t;
-                found = Some((index, hit));
-            }
-            ControlFlow::Continue(end)
-        });
-        found
+        if !Segment::allows(ray) {
+            return nearest(&self.spheres, ray, range);
+        }
+        let segment = Segment::new(ray, MARGIN);
+        let mut near = Near::new(self, lanes, &segment);
+        nearest_among(ray, range, |end| near.next(end))
     }
 
     /// [`Hittable::occludes`] with that set of instructions: for tests.
     #[doc(hidden)]
     pub fn occludes_in_lanes(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> bool {
-        let mut occluded = false;
-        self.ask_near(lanes, ray, range.clone(), |_, sphere| {
-            occluded = sphere.occludes(ray, range.clone());
-            if occluded { ControlFlow::Break(()) } else { ControlFlow::Continue(range.end) }
-        });
-        occluded
-    }
-
-    /// Asks every sphere that the ray may meet in `range`, and perhaps others, by ascending index. The answer is where the
-    /// range ends from now on, or that no more need to be asked.
-    #[inline(always)]
-    fn ask_near(
-        &self,
-        lanes: Lanes,
-        ray: &Ray,
-        range: Range<f32>,
-        mut ask: impl FnMut(usize, &Sphere) -> ControlFlow<(), f32>,
-    ) {
-        let Range { start, mut end } = range;
-        let empty = !(end > 0.0 && start < end);
-        if empty {
-            return;
-        }
         if !Segment::allows(ray) {
-            for (index, sphere) in self.spheres.iter().enumerate() {
-                if ask(index, sphere).is_break() {
-                    return;
-                }
-            }
-            return;
+            return self.spheres.occludes(ray, range);
         }
         let segment = Segment::new(ray, MARGIN);
-        let mut blocks = self.blocks.as_slice();
-        let mut first = 0;
-        loop {
-            let (skipped, mut near) = lanes.run(&Filter { blocks, segment: &segment, end });
-            while near != 0 {
-                let index = (first + skipped) * LANES + near.trailing_zeros() as usize;
-                near &= near - 1;
-                let Some(sphere) = self.spheres.get(index) else { break };
-                match ask(index, sphere) {
-                    ControlFlow::Continue(nearer) => end = nearer,
-                    ControlFlow::Break(()) => return,
-                }
+        let mut near = Near::new(self, lanes, &segment);
+        while let Some((_, sphere)) = near.next(range.end) {
+            if sphere.occludes(ray, range.clone()) {
+                return true;
             }
-            if blocks.len() <= BLOCKS_IN_A_WORD {
-                return;
-            }
-            first += skipped + 1;
-            blocks = blocks.get(skipped + 1..).unwrap_or_default();
         }
+        false
+    }
+
+    /// A bit for each of the first [`FEW`] spheres that the ray may meet, and perhaps for others.
+    #[inline]
+    fn few_near(&self, ray: &Ray) -> u32 {
+        match self.blocks.first() {
+            Some(block) if Segment::allows(ray) => {
+                block.few_near_half_line(&Segment::new(ray, MARGIN))
+            }
+            Some(_) => (1 << FEW) - 1,
+            None => 0,
+        }
+    }
+
+    /// The nearest of those that have a bit. Not inlined, unlike what finds that there is none, as there is for most rays.
+    #[inline(never)]
+    fn nearest_of_few(&self, near: u32, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
+        let mut near = self.spheres.iter().enumerate().filter(|(index, _)| near >> index & 1 != 0);
+        nearest_among(ray, range, |_| near.next())
+    }
+}
+
+/// The nearest of the spheres that `next` gives, by ascending index, when it is told where the range ends by now.
+#[inline(always)]
+fn nearest_among<'a>(
+    ray: &Ray,
+    range: Range<f32>,
+    mut next: impl FnMut(f32) -> Option<(usize, &'a Sphere)>,
+) -> Option<(usize, Hit)> {
+    let Range { start, mut end } = range;
+    let mut found = None;
+    while let Some((index, sphere)) = next(end) {
+        if let Some(hit) = sphere.intersect(ray, start..end) {
+            // The range is half open: what comes later must be strictly nearer.
+            end = hit.t;
+            found = Some((index, hit));
+        }
+    }
+    // Taken apart: else it is the caller's memory from the start, and each ray waits until the one before has written there.
+    let (index, hit) = found?;
+    Some((index, hit))
+}
+
+/// The spheres that a ray may meet, and perhaps others, by ascending index.
+struct Near<'a> {
+    lanes: Lanes,
+    segment: &'a Segment,
+    spheres: &'a [Sphere],
+    blocks: &'a [Block],
+    /// How many of the blocks have been filtered.
+    filtered: usize,
+    /// A bit for each sphere that has passed and was not given yet, and the index of that of the lowest bit.
+    passed: u64,
+    first: usize,
+}
+
+impl<'a> Near<'a> {
+    // The segment by reference: to copy it just after it was written costs more than all else here.
+    #[inline(always)]
+    fn new(Spheres { spheres, blocks }: &'a Spheres, lanes: Lanes, segment: &'a Segment) -> Self {
+        Self { lanes, segment, spheres, blocks, filtered: 0, first: 0, passed: 0 }
+    }
+
+    /// The next one that the ray may meet before `end`.
+    #[inline(always)]
+    fn next(&mut self, end: f32) -> Option<(usize, &'a Sphere)> {
+        while self.passed == 0 {
+            let blocks = self.blocks.get(self.filtered..)?;
+            if blocks.is_empty() {
+                return None;
+            }
+            let (skipped, passed) = self.lanes.run(&Filter { blocks, segment: self.segment, end });
+            self.first = (self.filtered + skipped) * LANES;
+            self.passed = passed;
+            self.filtered +=
+                if blocks.len() <= BLOCKS_IN_A_WORD { blocks.len() } else { skipped + 1 };
+        }
+        let index = self.first + self.passed.trailing_zeros() as usize;
+        self.passed &= self.passed - 1;
+        Some((index, self.spheres.get(index)?))
     }
 }
 
@@ -230,18 +263,19 @@ impl Vectorized for Filter<'_> {
     type Output = (usize, u64);
 
     #[inline(always)]
-    fn run<const FUSED: bool>(&self) -> (usize, u64) {
+    fn run<I: Instructions>(&self, instructions: I) -> (usize, u64) {
         let Self { blocks, segment, end } = *self;
         if blocks.len() <= BLOCKS_IN_A_WORD {
             let mut near = 0;
             for (place, block) in blocks.iter().enumerate() {
-                near |= u64::from(block.near_segment::<FUSED>(segment, end)) << (place * LANES);
+                near |=
+                    u64::from(block.near_segment(instructions, segment, end)) << (place * LANES);
             }
             return (0, near);
         }
         for (skipped, block) in blocks.iter().enumerate() {
-            if block.is_near_line::<FUSED>(segment) {
-                let near = block.near_segment::<FUSED>(segment, end);
+            if block.is_near_line(instructions, segment) {
+                let near = block.near_segment(instructions, segment, end);
                 if near != 0 {
                     return (skipped, u64::from(near));
                 }
@@ -261,7 +295,7 @@ impl Hittable for Spheres {
     #[inline]
     fn occludes(&self, ray: &Ray, range: Range<f32>) -> bool {
         if self.len() <= FEW {
-            return self.spheres.occludes(ray, range);
+            return self.few_near(ray) != 0 && self.spheres.occludes(ray, range);
         }
         self.occludes_in_lanes(Lanes::best(), ray, range)
     }

@@ -132,27 +132,67 @@ fn equals_the_slice_in_every_family_and_length() {
     }
 }
 
+/// Whether the sphere is found among `N` of which the others are never hit: nothing nearer hides that the filter drops it.
+fn assert_found_alone<const N: usize>(rng: &mut Rng, ray: &Ray, sphere: Sphere) {
+    let mut slice = [Sphere::new(Vec3::ZERO, -1.0); N];
+    slice[usize::try_from(rng.below(N as u64)).unwrap_or(0)] = sphere;
+    let spheres: Spheres = slice.into_iter().collect();
+    assert_same_as_slice(&slice, &spheres, ray, &(0.0..f32::INFINITY));
+    if let Some(hit) = sphere.intersect(ray, 0.0..f32::INFINITY) {
+        assert_same_as_slice(&slice, &spheres, ray, &(0.0..above(hit.t)));
+        assert_same_as_slice(&slice, &spheres, ray, &(hit.t..f32::INFINITY));
+        let spawned = hit.spawn(choose(rng, &[hit.normal, -hit.normal, ray.direction]));
+        assert_same_as_slice(&slice, &spheres, &spawned, &(0.0..f32::INFINITY));
+    }
+}
+
 #[test]
 fn finds_every_sphere_alone_in_every_lane() {
-    // One sphere of a family among 69 that are never hit: nothing nearer hides that the filter drops it.
-    let nowhere = Sphere::new(Vec3::ZERO, -1.0);
     for (seed, family) in (1..).zip(FAMILIES) {
         let mut rng = Rng::new(seed);
-        for case in 0..700 {
+        for _ in 0..700 {
             let (ray, sphere) = (family.f32)(&mut rng);
-            let mut slice = [nowhere; 70];
-            slice[case % 70] = sphere;
-            let spheres: Spheres = slice.into_iter().collect();
-            assert_same_as_slice(&slice, &spheres, &ray, &(0.0..f32::INFINITY));
-            if let Some(hit) = sphere.intersect(&ray, 0.0..f32::INFINITY) {
-                assert_same_as_slice(&slice, &spheres, &ray, &(0.0..above(hit.t)));
-                assert_same_as_slice(&slice, &spheres, &ray, &(hit.t..f32::INFINITY));
-                let spawned =
-                    hit.spawn(choose(&mut rng, &[hit.normal, -hit.normal, ray.direction]));
-                assert_same_as_slice(&slice, &spheres, &spawned, &(0.0..f32::INFINITY));
+            assert_found_alone::<70>(&mut rng, &ray, sphere);
+            assert_found_alone::<4>(&mut rng, &ray, sphere);
+        }
+    }
+}
+
+#[test]
+fn finds_every_sphere_alone_at_every_scale() {
+    // Far beyond what the filter computes with: lengths up to 2^60, directions from 2^-30 to 2^60.
+    let power_of_two = |exponent: i16| f32::from(exponent).exp2();
+    let mut rng = Rng::new(1);
+    for family in FAMILIES.iter().filter(|family| ["easy", "grazing"].contains(&family.name)) {
+        for scale in (-90..=90).map(power_of_two) {
+            for stretch in (-80..=62).step_by(2).map(power_of_two) {
+                let (ray, sphere) = (family.f32)(&mut rng);
+                let ray = Ray::new(ray.origin * scale, ray.direction * stretch);
+                let sphere = Sphere::new(sphere.center * scale, sphere.radius * scale);
+                assert_found_alone::<70>(&mut rng, &ray, sphere);
+                assert_found_alone::<4>(&mut rng, &ray, sphere);
             }
         }
     }
+}
+
+#[test]
+fn finds_large_spheres_from_afar() {
+    // The square of the distance overflows from 2^64 on, where the spheres are still of a size that the filter computes with.
+    let mut rng = Rng::new(1);
+    let mut hits = 0;
+    for distance in 50..=82_i16 {
+        for _ in 0..50 {
+            let direction = rng.unit_vector().as_vec3() * 1e-5;
+            let sphere = Sphere::new(rng.unit_vector().as_vec3() * 59_f32.exp2(), 59_f32.exp2());
+            let origin = sphere.center - direction * f32::from(distance).exp2() * 1e5;
+            let ray = Ray::new(origin, direction);
+            hits += u32::from(sphere.occludes(&ray, 0.0..f32::INFINITY));
+            assert_found_alone::<70>(&mut rng, &ray, sphere);
+            assert_found_alone::<4>(&mut rng, &ray, sphere);
+        }
+    }
+    assert!(hits > 1000, "{hits}");
 }
 
 #[test]

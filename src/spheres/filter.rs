@@ -11,7 +11,8 @@
 //! ```
 //!
 //! That drops the spheres behind the origin and those beyond the nearest hit so far along with those beside the ray. For the
-//! whole line s = h and T = h² / a, which is quicker: it goes first where there are many spheres.
+//! whole line s = h and T = h² / a, which is quicker: it goes first where there are many spheres. For the half line there is no
+//! end: that is enough where there are few.
 //!
 //! **The error.** With u = 2⁻²⁴ and every operation rounded (a fused multiply-add rounds less),
 //!
@@ -19,32 +20,36 @@
 //! o·o - r²   o twice, a product, 3 sums                 is off by at most  6 u o·o + 3 u r²
 //! h          o, a product, 2 sums                       is off by at most  4 u |o| |d|, and so T by 8 u |o| |d| m
 //! T          a 3, the quotient 1, 2 products, 2 sums    is off by at most  8 u T besides
+//! a end      a 3, a product                             is off by at most  4 u a end, and so T by 4 u T
 //! ```
 //!
-//! The last subtraction is compared with zero, and rounding it changes no sign. That m itself is rounded matters in the second
-//! order only, as it is where the distance is least; `a end` is rounded up. Now let the ray hit: o·o ≤ r² + T. With the
+//! The last subtraction is compared with zero, and rounding it changes no sign. Now let the ray hit: o·o ≤ r² + T. With the
 //! distance q = m |d| to the point at m, that to the closest approach, h / |d| ≥ q, and that of the center from the line, at
 //! most r: |o| |d| m = q √((h / |d|)² + r²) ≤ h m + r² / 2 ≤ T + r² / 2. Together the errors are at most
 //!
 //! ```text
-//! 6 u (r² + T) + 3 u r² + 8 u (T + r² / 2) + 8 u T = 13 u r² + 22 u T
+//! 6 u (r² + T) + 3 u r² + 8 u (T + r² / 2) + 8 u T + 4 u T = 13 u r² + 26 u T
 //! ```
 //!
 //! So r² is made larger by [`MARGIN`], 16 u, of which its rounding leaves 15 u, and T by twice that. The rest is far more than
 //! all terms of the second order. One factor is in what is kept of each sphere and the other in what is kept of the ray: the
 //! loop pays nothing for the bound.
 //!
-//! **Overflow and underflow.** Lengths up to [`LARGEST`] and directions whose square is between its inverse and itself keep
-//! every intermediate result finite: |o|² < 2¹²⁴, m < 2⁹³. A product that underflows is off by 2⁻¹⁵⁰ more, which factors of
-//! at most m, 2 |o| |d| or |o| / |d|, all below 2³² |o|, bring to 2⁻¹¹⁵ |o| in all. Either that is below [`LEAST`], which
-//! each r² has added to it, or |o| > 2¹⁵ and it is far below u o·o. Larger spheres pass always, and other rays ask all.
+//! **The sign.** So the result is below zero for every sphere that is hit, and its sign alone says which spheres pass. It is
+//! NaN only where `end` is NaN or below zero: then nothing is hit, and any answer will do.
+//!
+//! **Overflow and underflow.** Lengths up to [`LARGEST`] and directions of 2⁻³⁰ to 2⁶⁰ keep every intermediate result finite:
+//! |o| < 2⁶², |h| < 2¹²², m < 2⁹². A product that underflows is off by 2⁻¹⁵⁰ more, which factors of 2 m, 2 |h| and
+//! 2 |o| / |d|, together below 2⁶² |o|, bring to 2⁻⁸⁸ |o|. Either |o| < 2⁻¹² and that is below [`LEAST`], which each r² has
+//! added to it, or it is far below u o·o. Larger spheres pass always, and other rays ask all.
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
+use super::lanes::{Instructions, LANES};
 use crate::{Ray, Sphere};
 
-/// How many spheres are filtered at a time: four vectors of SSE2 or NEON, two of AVX2, one of AVX-512.
-pub(crate) const LANES: usize = 16;
+/// How many spheres are few: those of one vector of four.
+pub(crate) const FEW: usize = 4;
 
 /// By which part of themselves r², and by twice of which T, is made larger: 16 u. See the derivation above.
 pub(crate) const MARGIN: f32 = 8.0 * f32::EPSILON;
@@ -52,8 +57,11 @@ pub(crate) const MARGIN: f32 = 8.0 * f32::EPSILON;
 /// What is added to every r²: more than underflow can take from it.
 const LEAST: f64 = f64::from_bits((1023 - 99) << 52); // 2^-99
 
-/// The largest coordinate, radius and square of a direction that the filter computes with: 2⁶⁰.
+/// The largest coordinate, radius and length that the filter computes with.
 const LARGEST: f32 = f32::from_bits((127 + 60) << 23); // 2^60
+
+/// The least square of a direction's length that it computes with.
+const LEAST_SQUARE: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
 
 /// What the filter knows of 16 spheres.
 ///
@@ -98,45 +106,68 @@ impl Block {
 
     /// The spheres that the ray may meet before the segment's end, a bit for each.
     #[inline(always)]
-    pub(crate) fn near_segment<const FUSED: bool>(&self, segment: &Segment, end: f32) -> u32 {
+    pub(crate) fn near_segment<I: Instructions>(
+        &self,
+        instructions: I,
+        segment: &Segment,
+        end: f32,
+    ) -> u32 {
         let longest = segment.a * end;
-        let mut near = 0;
-        for lane in 0..LANES {
-            let (power, h) = self.power_and_h::<FUSED>(lane, segment);
-            // Comparisons that are one instruction each: `f32::clamp` looks for NaN, and there is none here.
+        // Loops over arrays, as nothing else here becomes vectors: the functions of an iterator are compiled for other
+        // instructions.
+        let mut clearance = [0.0; LANES];
+        for (lane, clearance) in clearance.iter_mut().enumerate() {
+            let (power, h) = self.power_and_h(instructions, lane, segment);
+            // Comparisons that are one instruction each: `f32::clamp` looks for NaN.
             let s = if h > 0.0 { h } else { 0.0 };
             let s = if s < longest { s } else { longest };
-            let clearance = multiply_add::<FUSED>(s * segment.one_over_a, (s - h) - h, power);
-            near |= if clearance > 0.0 { 0 } else { 1 << lane };
+            *clearance = instructions.multiply_add(s * segment.one_over_a, (s - h) - h, power);
         }
-        near
+        instructions.signs(&clearance)
     }
 
     /// Whether there is a sphere that the whole line may meet, ahead or behind.
     #[inline(always)]
-    pub(crate) fn is_near_line<const FUSED: bool>(&self, segment: &Segment) -> bool {
-        // Signs are quicker to collect than comparisons.
-        let mut signs = 0;
-        for lane in 0..LANES {
-            let (power, h) = self.power_and_h::<FUSED>(lane, segment);
-            let clearance = multiply_add::<FUSED>(-(h * segment.one_over_a), h, power);
-            signs |= clearance.to_bits();
+    pub(crate) fn is_near_line<I: Instructions>(&self, instructions: I, segment: &Segment) -> bool {
+        let mut clearance = [0.0; LANES];
+        for (lane, clearance) in clearance.iter_mut().enumerate() {
+            let (power, h) = self.power_and_h(instructions, lane, segment);
+            *clearance = instructions.multiply_add(-(h * segment.one_over_a), h, power);
         }
-        signs >> 31 == 1
+        instructions.signs(&clearance) != 0
     }
 
     /// o·o - r² and d·o.
     #[inline(always)]
-    fn power_and_h<const FUSED: bool>(&self, lane: usize, segment: &Segment) -> (f32, f32) {
+    fn power_and_h<I: Instructions>(
+        &self,
+        instructions: I,
+        lane: usize,
+        segment: &Segment,
+    ) -> (f32, f32) {
         let Segment { origin, direction, .. } = *segment;
         let x = self.x[lane] - origin.x;
         let y = self.y[lane] - origin.y;
         let z = self.z[lane] - origin.z;
-        let power = multiply_add::<FUSED>(x, x, self.negative_radius_squared[lane]);
-        let power = multiply_add::<FUSED>(y, y, power);
-        let power = multiply_add::<FUSED>(z, z, power);
-        let h = multiply_add::<FUSED>(direction.y, y, direction.x * x);
-        (power, multiply_add::<FUSED>(direction.z, z, h))
+        let power = instructions.multiply_add(x, x, self.negative_radius_squared[lane]);
+        let power = instructions.multiply_add(y, y, power);
+        let power = instructions.multiply_add(z, z, power);
+        let h = instructions.multiply_add(direction.y, y, direction.x * x);
+        (power, instructions.multiply_add(direction.z, z, h))
+    }
+
+    /// Which of the first [`FEW`] spheres the half line may meet, a bit for each: in one vector, whatever the instructions.
+    #[inline(always)]
+    pub(crate) fn few_near_half_line(&self, segment: &Segment) -> u32 {
+        let Segment { origin, direction, one_over_a, .. } = *segment;
+        let first = |lanes: &[f32; LANES]| Vec4::from_slice(lanes);
+        let x = first(&self.x) - origin.x;
+        let y = first(&self.y) - origin.y;
+        let z = first(&self.z) - origin.z;
+        let power = x * x + y * y + z * z + first(&self.negative_radius_squared);
+        let h = x * direction.x + y * direction.y + z * direction.z;
+        let s = h.max(Vec4::ZERO);
+        (power - s * one_over_a * s).is_negative_bitmask()
     }
 }
 
@@ -147,40 +178,30 @@ fn enlarged_square(radius: f32, margin: f32) -> f32 {
     (radius * radius * (1.0 + f64::from(margin)) + LEAST) as f32
 }
 
-/// `a b + c`, rounded once where the machine has an instruction for it.
-#[inline(always)]
-fn multiply_add<const FUSED: bool>(a: f32, b: f32, c: f32) -> f32 {
-    #[cfg(feature = "std")]
-    if FUSED {
-        return a.mul_add(b, c);
-    }
-    a * b + c
-}
-
 /// What the filter knows of a ray.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Segment {
     origin: Vec3,
     direction: Vec3,
-    /// d·d, made larger so that with it the segment does not become shorter.
+    /// d·d.
     a: f32,
     /// 1 / d·d, made larger.
     one_over_a: f32,
 }
 
 impl Segment {
-    /// Whether the filter can compute with that ray.
+    /// Whether the filter can compute with that ray: of a NaN, it cannot.
     #[inline(always)]
     pub(crate) fn allows(ray: &Ray) -> bool {
         let a = ray.direction.length_squared();
-        ray.origin.abs().cmple(Vec3::splat(LARGEST)).all() && (1.0 / LARGEST..=LARGEST).contains(&a)
+        ray.origin.length_squared() + a <= LARGEST * LARGEST && a >= LEAST_SQUARE
     }
 
     #[inline(always)]
     pub(crate) fn new(ray: &Ray, margin: f32) -> Self {
         let Ray { origin, direction } = *ray;
         let a = direction.length_squared();
-        Self { origin, direction, a: a * (1.0 + margin), one_over_a: (1.0 + 2.0 * margin) / a }
+        Self { origin, direction, a, one_over_a: (1.0 + 2.0 * margin) / a }
     }
 }
 
@@ -191,9 +212,31 @@ mod tests {
 
     use super::*;
     use crate::Hittable;
+    use crate::spheres::lanes::{Lanes, Vectorized};
+
+    /// A block, and whether it passes each of the tests.
+    struct Tests<'a> {
+        block: &'a Block,
+        segment: Segment,
+        end: f32,
+    }
+
+    impl Vectorized for Tests<'_> {
+        type Output = (u32, bool);
+
+        #[inline(always)]
+        fn run<I: Instructions>(&self, instructions: I) -> (u32, bool) {
+            let Self { block, segment, end } = self;
+            (
+                block.near_segment(instructions, segment, *end),
+                block.is_near_line(instructions, segment),
+            )
+        }
+    }
 
     /// How many of the hits of random rays that graze a sphere, or end where they meet it, a filter of that margin drops.
-    fn dropped(margin: f32, fused: bool, cases: u32) -> u32 {
+    fn dropped(margin: f32, lanes: Lanes, cases: u32) -> u32 {
+        const LANE: usize = 3;
         let mut hits = 0;
         let mut dropped = 0;
         for case in 0..cases {
@@ -216,23 +259,14 @@ mod tests {
             let ray = Ray::new(origin.as_vec3(), direction.as_vec3());
             let Some(hit) = sphere.intersect(&ray, 0.0..f32::INFINITY) else { continue };
             let mut block = Block::EMPTY;
-            block.set(5, &sphere, margin);
-            let segment = Segment::new(&ray, margin);
+            block.set(LANE, &sphere, margin);
             for end in [f32::INFINITY, f32::from_bits(hit.t.to_bits() + 1)] {
                 hits += 1;
-                let (near_line, near) = if fused {
-                    (
-                        block.is_near_line::<true>(&segment),
-                        block.near_segment::<true>(&segment, end),
-                    )
-                } else {
-                    (
-                        block.is_near_line::<false>(&segment),
-                        block.near_segment::<false>(&segment, end),
-                    )
-                };
-                assert_eq!(near & !(1 << 5), 0, "an empty lane passed");
-                dropped += u32::from(near == 0 || !near_line);
+                let segment = Segment::new(&ray, margin);
+                let (near, near_line) = lanes.run(&Tests { block: &block, segment, end });
+                let near_half_line = block.few_near_half_line(&segment);
+                assert_eq!((near | near_half_line) & !(1 << LANE), 0, "an empty lane passed");
+                dropped += u32::from(near == 0 || !near_line || near_half_line == 0);
             }
         }
         assert!(hits > cases / 2);
@@ -241,13 +275,15 @@ mod tests {
 
     #[test]
     fn drops_no_sphere_that_is_hit() {
-        assert_eq!(dropped(MARGIN, false, 60_000), 0);
-        assert_eq!(dropped(MARGIN, true, 10_000), 0);
+        for lanes in Lanes::available() {
+            assert_eq!(dropped(MARGIN, lanes, 60_000), 0, "{lanes:?}");
+        }
     }
 
     #[test]
     fn needs_its_margin() {
-        assert!(dropped(0.0, false, 60_000) > 0);
-        assert!(dropped(0.0, true, 10_000) > 0);
+        for lanes in Lanes::available() {
+            assert!(dropped(0.0, lanes, 60_000) > 0, "{lanes:?}");
+        }
     }
 }

@@ -1,35 +1,65 @@
 //! The machine's lanes: runs a loop that the compiler vectorizes with the widest instructions that are there.
 //!
-//! The call of a function compiled for more instructions is `unsafe`: it takes the promise that the machine has them. Until
-//! Rust 1.86, so is even to declare such a function. The feature `bytemuck` aside, nothing else in the crate is.
+//! Each set of instructions is a type. A value of it is the proof that the machine has them: where that must be found out, only
+//! finding out makes one. So the `unsafe` that remains is in [`avx2`] and [`avx512`], each of which keeps that promise to
+//! itself: to call a function compiled for these instructions, and to collect signs with one of them, which no loop compiles
+//! to. The feature `bytemuck` aside, nothing else in the crate is `unsafe`.
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+mod avx2;
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+mod avx512;
+
+use core::fmt;
+
+use glam::Vec4;
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+use {avx2::Avx2, avx512::Avx512};
+
+/// How many numbers a loop works on at a time: four vectors of SSE2 or NEON, two of AVX2, one of AVX-512.
+pub(crate) const LANES: usize = 16;
+
+/// A set of instructions, and what a loop cannot say by itself.
+pub(crate) trait Instructions: Copy {
+    /// `a b + c`, rounded once where the machine has an instruction for it.
+    fn multiply_add(self, a: f32, b: f32, c: f32) -> f32;
+
+    /// A bit for each number whose sign is set.
+    fn signs(self, numbers: &[f32; LANES]) -> u32;
+}
 
 /// A loop for the compiler to vectorize. `run` must be inlined always, to be compiled anew for each set of instructions.
 pub(crate) trait Vectorized {
     /// What it computes: the same for each set of instructions.
     type Output;
 
-    /// Runs it; `FUSED` where the machine has a fused multiply-add.
-    fn run<const FUSED: bool>(&self) -> Self::Output;
+    /// Runs it.
+    fn run<I: Instructions>(&self, instructions: I) -> Self::Output;
 }
 
-/// A set of instructions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Lanes {
-    /// What the crate is compiled for: at least SSE2 on x86-64, NEON on aarch64.
-    Compiled,
-    /// AVX2 with FMA.
+/// A set of instructions that this machine has.
+#[derive(Clone, Copy)]
+pub struct Lanes(Set);
+
+#[derive(Clone, Copy)]
+enum Set {
+    Compiled(Compiled),
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    Avx2,
+    Avx2(Avx2),
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    Avx512(Avx512),
 }
 
 impl Lanes {
     /// All that this machine has, the best last.
     pub fn available() -> impl Iterator<Item = Self> {
         [
-            Some(Self::Compiled),
+            Some(Self(Set::Compiled(Compiled))),
             #[cfg(all(feature = "std", target_arch = "x86_64"))]
-            has_avx2().then_some(Self::Avx2),
+            Avx2::detect().map(|avx2| Self(Set::Avx2(avx2))),
+            #[cfg(all(feature = "std", target_arch = "x86_64"))]
+            Avx512::detect().map(|avx512| Self(Set::Avx512(avx512))),
         ]
         .into_iter()
         .flatten()
@@ -38,46 +68,69 @@ impl Lanes {
     /// The best that this machine has.
     #[inline(always)]
     pub(crate) fn best() -> Self {
-        #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx512f")))]
-        if has_avx2() {
-            return Self::Avx2;
+        #[cfg(all(feature = "std", target_arch = "x86_64"))]
+        {
+            if let Some(avx512) = Avx512::detect() {
+                return Self(Set::Avx512(avx512));
+            }
+            if let Some(avx2) = Avx2::detect() {
+                return Self(Set::Avx2(avx2));
+            }
         }
-        Self::Compiled
+        Self(Set::Compiled(Compiled))
     }
 
-    /// Runs the loop with this set of instructions, or with what the crate is compiled for if the machine lacks it.
-    #[cfg_attr(
-        not(all(feature = "std", target_arch = "x86_64")),
-        expect(clippy::unused_self, reason = "there is one set of instructions only")
-    )]
+    /// Runs the loop with this set of instructions.
     #[inline(always)]
     pub(crate) fn run<F: Vectorized>(self, f: &F) -> F::Output {
-        #[cfg(all(feature = "std", target_arch = "x86_64"))]
-        if self == Self::Avx2 && has_avx2() {
-            #[expect(unsafe_code, reason = "the machine has what the function is compiled for")]
-            // SAFETY: has_avx2() says that both AVX2 and FMA are there.
-            return unsafe { run_avx2(f) };
+        match self.0 {
+            Set::Compiled(compiled) => compiled.run(f),
+            #[cfg(all(feature = "std", target_arch = "x86_64"))]
+            Set::Avx2(avx2) => avx2.run(f),
+            #[cfg(all(feature = "std", target_arch = "x86_64"))]
+            Set::Avx512(avx512) => avx512.run(f),
         }
-        run_compiled(f)
     }
 }
 
-// Neither is inlined: a loop that shares its function with other code may get the vectors that it keeps saved and restored.
-#[inline(never)]
-fn run_compiled<F: Vectorized>(f: &F) -> F::Output {
-    f.run::<{ cfg!(any(target_arch = "aarch64", target_feature = "fma")) }>()
+impl fmt::Debug for Lanes {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self.0 {
+            Set::Compiled(_) => "Compiled",
+            #[cfg(all(feature = "std", target_arch = "x86_64"))]
+            Set::Avx2(_) => "AVX2",
+            #[cfg(all(feature = "std", target_arch = "x86_64"))]
+            Set::Avx512(_) => "AVX-512",
+        })
+    }
 }
 
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
-#[inline(always)]
-fn has_avx2() -> bool {
-    std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
+/// What the crate is compiled for: at least SSE2 on x86-64, NEON on aarch64.
+#[derive(Clone, Copy)]
+pub(crate) struct Compiled;
+
+impl Compiled {
+    // Like those of the others, not inlined: a loop that shares its function with other code may get the vectors that it keeps
+    // saved and restored.
+    #[inline(never)]
+    fn run<F: Vectorized>(self, f: &F) -> F::Output {
+        f.run(self)
+    }
 }
 
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
-#[target_feature(enable = "avx2,fma")]
-#[inline(never)]
-#[expect(unsafe_code, reason = "Rust 1.85 has no safe functions of other instructions")]
-unsafe fn run_avx2<F: Vectorized>(f: &F) -> F::Output {
-    f.run::<true>()
+impl Instructions for Compiled {
+    #[inline(always)]
+    fn multiply_add(self, a: f32, b: f32, c: f32) -> f32 {
+        #[cfg(all(feature = "std", any(target_arch = "aarch64", target_feature = "fma")))]
+        let sum = a.mul_add(b, c);
+        #[cfg(not(all(feature = "std", any(target_arch = "aarch64", target_feature = "fma"))))]
+        let sum = a * b + c;
+        sum
+    }
+
+    #[inline(always)]
+    fn signs(self, numbers: &[f32; LANES]) -> u32 {
+        let four = |first: usize| Vec4::from_slice(&numbers[first..]).is_negative_bitmask();
+        four(0) | four(4) << 4 | four(8) << 8 | four(12) << 12
+    }
 }
