@@ -65,8 +65,10 @@ impl<S: Scalar> Crossings<S> {
         let radii = N::ONE / (a * radius);
         let half_chord = d.map(|d| d * (half_chord * radii));
         let foot = moment.cross(d).map(|foot| foot * radii);
-        let near = foot.zip(half_chord, |foot, half_chord| (foot - half_chord).to_f64());
-        let far = foot.zip(half_chord, |foot, half_chord| (foot + half_chord).to_f64());
+        let near =
+            foot.zip(half_chord, |foot, half_chord| without_dust((foot - half_chord).to_f64()));
+        let far =
+            foot.zip(half_chord, |foot, half_chord| without_dust((foot + half_chord).to_f64()));
         Self { t, normals: [near.into(), far.into()] }
     }
 
@@ -77,6 +79,15 @@ impl<S: Scalar> Crossings<S> {
         let side = self.t.iter().position(accepted)?;
         Some((self.t[side], self.normals[side]))
     }
+}
+
+/// A coordinate of a unit vector, zero where it is so small that the low part of a product underflowed on the way: what is left
+/// of such a part depends on whether the machine has a fused multiply-add.
+#[inline(always)]
+fn without_dust(coordinate: f64) -> f64 {
+    const DUST: f64 = f64::from_bits((1023 - 800) << 52); // 2^-800
+    // A zero of the same sign.
+    if coordinate.abs() < DUST { coordinate * 0.0 } else { coordinate }
 }
 
 /// A precision that roots are rounded to.

@@ -73,7 +73,8 @@ fn fast_two_sum(a: f64, b: f64) -> Pair {
 
 /// `a b`, exactly, unless the error underflows, below 2⁻¹⁰⁷⁴, or a factor is 2⁹⁹⁶ or more.
 ///
-/// Where the machine has a fused multiply-add, it gives the error at once; the bits are the same either way.
+/// Where the machine has a fused multiply-add, it gives the error at once; the bits are the same either way, unless it
+/// underflows.
 #[inline(always)]
 pub(crate) fn two_product(a: f64, b: f64) -> Pair {
     let hi = a * b;

@@ -3,6 +3,8 @@
 
 #[path = "../../../support/families.rs"]
 mod families;
+#[cfg(feature = "alloc")]
+mod spheres;
 
 use core::fmt;
 use core::hash::Hasher;
@@ -11,6 +13,9 @@ use eyeray::{Algebraic, Geometric, Hit, Hittable, Scalar, Vector};
 use families::{Case, FAMILIES, Rng};
 use fnv::FnvHasher;
 use glam::{DVec3, Vec3};
+
+#[cfg(feature = "alloc")]
+pub use spheres::assert_spheres_find_the_same;
 
 /// The cases of each family, in each precision.
 const CASES: u32 = 2_000;
