@@ -1,8 +1,8 @@
-//! One ray against many spheres: `Spheres` beside loops over the slice, and the ratio.
+//! One ray against many spheres: `Spheres` beside loops over the slice, and beside the least that the machine could take.
 //!
 //! ```text
-//! cargo bench --bench spheres                  # a table of medians and ratios, then criterion's estimates
-//! cargo bench --bench spheres -- 1024          # only the estimates of what matches, after the table
+//! cargo bench --bench spheres                  # tables of medians and ratios, then criterion's estimates
+//! cargo bench --bench spheres -- 1024          # only the estimates of what matches, after the tables
 //! cargo bench --bench spheres -- --test        # each once
 //! ```
 //!
@@ -10,7 +10,6 @@
 //! for each sphere in turn, the nearest so far as the range's end, and the point and the normal of the nearest at last.
 #![allow(missing_docs, reason = "criterion's macros make public functions")]
 
-use std::fmt::Write as _;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -174,44 +173,99 @@ fn passes() -> Vec<(String, Pass)> {
 
 const COUNTS: [usize; 7] = [1, 2, 4, 8, 46, 1024, 65_536];
 
-/// Prints the medians of rounds in which all passes take their turn, in nanoseconds a ray, and how many times as fast as the
-/// faster formula each is.
+/// How long each pass takes for a ray of a scene, in nanoseconds: medians of rounds in which all take their turn.
+fn medians(passes: &[(String, Pass)], scene: &Scene, rounds: usize) -> Vec<f64> {
+    let mut times = vec![Vec::new(); passes.len()];
+    for _ in 0..rounds {
+        for ((_, pass), times) in passes.iter().zip(&mut times) {
+            let start = Instant::now();
+            pass(black_box(scene));
+            times.push(start.elapsed().as_secs_f64());
+        }
+    }
+    #[expect(clippy::cast_precision_loss, reason = "counts are small")]
+    let rays = scene.rays.len() as f64;
+    times
+        .into_iter()
+        .map(|mut times| {
+            times.sort_by(f64::total_cmp);
+            times[times.len() / 2] * 1e9 / rays
+        })
+        .collect()
+}
+
+/// Prints how the passes compare with the formulas, and with what the machine could do at best.
 fn print_ratios(rounds: usize) {
     let passes = passes();
-    let mut table =
-        String::from("nanoseconds a ray, and how many times as fast as the faster formula\n\n");
-    let _ = write!(table, "{:>8}", "spheres");
+    println!("nanoseconds a ray, and how many times as fast as the faster formula\n");
+    print!("{:>8}", "spheres");
     for (name, _) in &passes {
-        let _ = write!(table, "{name:>19}");
-    }
-    println!("{table}   Spheres, ns a sphere");
-    for count in COUNTS {
-        let scene = Scene::new(count);
-        let mut times = vec![Vec::new(); passes.len()];
-        for _ in 0..rounds {
-            for ((_, pass), times) in passes.iter().zip(&mut times) {
-                let start = Instant::now();
-                pass(black_box(&scene));
-                times.push(start.elapsed().as_secs_f64());
-            }
-        }
-        #[expect(clippy::cast_precision_loss, reason = "counts are small")]
-        let (rays, spheres) = (scene.rays.len() as f64, count as f64);
-        let medians: Vec<f64> = times
-            .into_iter()
-            .map(|mut times| {
-                times.sort_by(f64::total_cmp);
-                times[times.len() / 2] * 1e9 / rays
-            })
-            .collect();
-        let formula = medians[0].min(medians[1]);
-        let mut row = format!("{count:>8}");
-        for time in &medians {
-            let _ = write!(row, "{time:>12.1} ({:>3.1}x)", formula / time);
-        }
-        println!("{row}{:>12.3}", medians[3] / spheres);
+        print!("{name:>19}");
     }
     println!();
+    let lanes = passes.len() - Lanes::available().count();
+    let mut of_lanes = Vec::new();
+    for count in COUNTS {
+        let mut medians = medians(&passes, &Scene::new(count), rounds);
+        let formula = medians[0].min(medians[1]);
+        print!("{count:>8}");
+        for time in &medians {
+            print!("{time:>11.1} ({:>4.1}x)", formula / time);
+        }
+        println!();
+        of_lanes.push((count, medians.split_off(lanes)));
+    }
+
+    let gigahertz = cycles_a_nanosecond();
+    println!("\nnanoseconds a sphere, and how many times the least, at {gigahertz:.2} GHz\n");
+    print!("{:>8}", "spheres");
+    let least: Vec<f64> =
+        passes[lanes..].iter().map(|(name, _)| least_cycles(name) / gigahertz).collect();
+    for ((name, _), least) in passes[lanes..].iter().zip(&least) {
+        print!("{:>19}", format!("{name}, {least:.3}"));
+    }
+    println!();
+    for (count, times) in of_lanes {
+        print!("{count:>8}");
+        for (time, least) in times.iter().zip(&least) {
+            #[expect(clippy::cast_precision_loss, reason = "counts are small")]
+            let a_sphere = time / count as f64;
+            print!("{a_sphere:>11.3} ({:>4.1}x)", a_sphere / least);
+        }
+        println!();
+    }
+    println!();
+}
+
+/// The least time that a set of instructions could take for a sphere, in cycles, if a core starts two vectors of products and
+/// two of sums in each: the filter computes 3 sums and 8 products, each but two of them with a sum, fused where that can be.
+fn least_cycles(lanes: &str) -> f64 {
+    let fused = |lanes: f64| 8.0 / (2.0 * lanes);
+    match lanes {
+        "AVX-512" => fused(16.0),
+        "AVX2" => fused(8.0),
+        _ if cfg!(target_feature = "avx512f") => fused(16.0),
+        _ if cfg!(all(target_feature = "avx2", target_feature = "fma")) => fused(8.0),
+        _ if cfg!(target_arch = "aarch64") => fused(4.0),
+        // Not fused, the products' sums are 6 more.
+        _ => (3.0 + 6.0) / (2.0 * 4.0),
+    }
+}
+
+/// The processor's cycles a nanosecond: those of a chain of products of integers, each of which takes three on every
+/// processor of the last ten years.
+fn cycles_a_nanosecond() -> f64 {
+    const PRODUCTS: u32 = 1_000_000;
+    let nanoseconds = (0..11).map(|_| {
+        let start = Instant::now();
+        let mut product = black_box(3_u64);
+        for _ in 0..PRODUCTS {
+            product = black_box(5_u64).wrapping_mul(product);
+        }
+        black_box(product);
+        start.elapsed().as_secs_f64() * 1e9
+    });
+    3.0 * f64::from(PRODUCTS) / nanoseconds.fold(f64::INFINITY, f64::min)
 }
 
 fn estimates(criterion: &mut Criterion) {
