@@ -29,21 +29,23 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 ///
 /// # When to use it
 ///
-/// For eight spheres and more it is faster than a loop over any formula, and for fewer no slower than [`nearest`]. The time
-/// that a ray takes is still proportional to the number of spheres: from about a thousand on, most of it goes into spheres far
-/// from the ray. A bounding volume hierarchy skips those in groups, and is the better choice there; it can be built on
-/// [`Sphere::bounds`]. (`cargo bench --bench spheres` measures 1 to 65,536, and `examples/many_spheres` has a hierarchy.)
+/// Wherever there are two spheres or more: it is faster than a loop over any formula. The time that a ray takes is still
+/// proportional to the number of spheres, and from some hundreds on most of it goes into spheres far from the ray. A bounding
+/// volume hierarchy skips those in groups: it takes longer to build, and is the better choice from some thousands on. It can be
+/// built on [`Sphere::bounds`]. (`cargo bench --bench spheres` measures 1 to 65,536, and `examples/many_spheres` has a
+/// hierarchy.)
 ///
 /// # How fast it can be
 ///
 /// Where there are many, the filter reads 16 bytes of each and computes 3 subtractions, 2 products and 6 fused multiply-adds
-/// before anything is decided. A core that starts two vectors of products in a cycle thus needs half a cycle a sphere with
-/// AVX2, 8 lanes. With SSE2, 4 lanes and nothing fused, these are 8 products and 9 sums, and a little over one cycle where two
-/// of each start at a time. At 4.3 GHz that is 0.12 ns and 0.26 ns. A Zen 5 core takes 0.15 ns and 0.31 ns a sphere of
-/// 65,536, from its second-level cache (`cargo bench --bench spheres`).
+/// before anything is decided. A core that starts two vectors of products in a cycle thus needs a quarter of a cycle a sphere
+/// with AVX-512, 16 lanes, and half a cycle with AVX2, 8 lanes. With SSE2, 4 lanes and nothing fused, these are 8 products and
+/// 9 sums, and a little over one cycle where two of each start at a time. A Zen 5 core takes twice, 1.2 and 1.2 times that for
+/// 65,536 spheres, 0.11, 0.13 and 0.30 ns each (`cargo bench --bench spheres` prints this for the machine at hand).
 ///
-/// On x86-64 with the feature `std`, AVX2 and FMA are used where the machine has them. Otherwise it is what the crate is
-/// compiled for: SSE2, NEON on aarch64, and more with `-C target-cpu`. The answers are the same.
+/// On x86-64 with the feature `std`, AVX-512 or else AVX2 and FMA are used where the machine has them; AVX-512 from Rust 1.89
+/// on. Otherwise it is what the crate is compiled for: SSE2, NEON on aarch64, and more with `-C target-cpu`. The answers are
+/// the same.
 ///
 /// ```
 /// use eyeray::{Ray, Sphere, Spheres};

@@ -6,8 +6,8 @@
 //! cargo run --release --manifest-path examples/many_spheres/Cargo.toml -- --largest 10000 --rays 1000000
 //! ```
 //!
-//! The hierarchy takes longer to build, and is worth it for more than a few hundred spheres. Half of the rays are eye rays, the other half leave the surfaces that those have met. Both ways must give the same hits,
-//! bit for bit, or the example fails.
+//! The hierarchy takes longer to build, and is worth it for more than a few thousand spheres. Half of the rays are eye rays,
+//! the other half leave the surfaces that those have met. Both ways must give the same hits, bit for bit, or the example fails.
 
 mod arguments;
 mod cloud;
