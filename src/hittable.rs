@@ -91,15 +91,29 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
 pub fn nearest<V: Vector, H: Hittable<V>>(
     objects: &[H],
     ray: &Ray<V>,
-    mut range: Range<V::Scalar>,
+    range: Range<V::Scalar>,
 ) -> Option<(usize, Hit<V>)> {
+    let mut objects = objects.iter().enumerate();
+    nearest_among(ray, range, |_| objects.next())
+}
+
+/// The nearest of the objects that `next` gives, by ascending index, each time told where the range ends by now.
+#[inline(always)]
+pub(crate) fn nearest_among<'a, V: Vector, H: Hittable<V> + 'a>(
+    ray: &Ray<V>,
+    range: Range<V::Scalar>,
+    mut next: impl FnMut(V::Scalar) -> Option<(usize, &'a H)>,
+) -> Option<(usize, Hit<V>)> {
+    let Range { start, mut end } = range;
     let mut found = None;
-    for (index, object) in objects.iter().enumerate() {
-        if let Some(hit) = object.intersect(ray, range.clone()) {
+    while let Some((index, object)) = next(end) {
+        if let Some(hit) = object.intersect(ray, start..end) {
             // The range is half open: what comes later must be strictly nearer.
-            range.end = hit.t;
+            end = hit.t;
             found = Some((index, hit));
         }
     }
-    found
+    // Taken apart: else it is the caller's memory from the start, and each ray waits until the one before has written there.
+    let (index, hit) = found?;
+    Some((index, hit))
 }

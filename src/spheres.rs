@@ -12,7 +12,8 @@ use lanes::{Instructions, LANES, Vectorized};
 #[doc(hidden)]
 pub use lanes::Lanes;
 
-use crate::{Hit, Hittable, Ray, Sphere, nearest};
+use crate::hittable::{nearest, nearest_among};
+use crate::{Hit, Hittable, Ray, Sphere};
 
 /// How many blocks have a bit for each sphere in one word.
 const BLOCKS_IN_A_WORD: usize = 64 / LANES;
@@ -186,27 +187,6 @@ impl Spheres {
         let mut near = self.spheres.iter().enumerate().filter(|(index, _)| near >> index & 1 != 0);
         nearest_among(ray, range, |_| near.next())
     }
-}
-
-/// The nearest of the spheres that `next` gives, by ascending index, when it is told where the range ends by now.
-#[inline(always)]
-fn nearest_among<'a>(
-    ray: &Ray,
-    range: Range<f32>,
-    mut next: impl FnMut(f32) -> Option<(usize, &'a Sphere)>,
-) -> Option<(usize, Hit)> {
-    let Range { start, mut end } = range;
-    let mut found = None;
-    while let Some((index, sphere)) = next(end) {
-        if let Some(hit) = sphere.intersect(ray, start..end) {
-            // The range is half open: what comes later must be strictly nearer.
-            end = hit.t;
-            found = Some((index, hit));
-        }
-    }
-    // Taken apart: else it is the caller's memory from the start, and each ray waits until the one before has written there.
-    let (index, hit) = found?;
-    Some((index, hit))
 }
 
 /// The spheres that a ray may meet, and perhaps others, by ascending index.
