@@ -4,6 +4,7 @@ mod filter;
 mod lanes;
 
 use alloc::vec::Vec;
+use core::iter;
 use core::ops::Range;
 
 use filter::{Block, FEW, MARGIN, Segment};
@@ -131,8 +132,7 @@ impl Spheres {
     #[inline]
     pub fn nearest(&self, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
         if self.len() <= FEW {
-            let near = self.few_near(ray);
-            return if near == 0 { None } else { self.nearest_of_few(near, ray, range) };
+            return self.nearest_of(self.few_near(ray), ray, range);
         }
         self.nearest_in_lanes(Lanes::best(), ray, range)
     }
@@ -149,6 +149,10 @@ impl Spheres {
             return nearest(&self.spheres, ray, range);
         }
         let segment = Segment::new(ray, MARGIN);
+        if self.blocks.len() <= BLOCKS_IN_A_WORD {
+            let filter = Filter { blocks: &self.blocks, segment: &segment, end: range.end };
+            return self.nearest_of(lanes.run(&filter).1, ray, range);
+        }
         let mut near = Near::new(self, lanes, &segment);
         nearest_among(ray, range, |end| near.next(end))
     }
@@ -160,32 +164,68 @@ impl Spheres {
             return self.spheres.occludes(ray, range);
         }
         let segment = Segment::new(ray, MARGIN);
-        let mut near = Near::new(self, lanes, &segment);
-        while let Some((_, sphere)) = near.next(range.end) {
-            if sphere.occludes(ray, range.clone()) {
-                return true;
-            }
+        if self.blocks.len() <= BLOCKS_IN_A_WORD {
+            let filter = Filter { blocks: &self.blocks, segment: &segment, end: range.end };
+            return self.any_of(lanes.run(&filter).1, ray, range);
         }
-        false
+        let mut near = Near::new(self, lanes, &segment);
+        iter::from_fn(|| near.next(range.end))
+            .any(|(_, sphere)| sphere.occludes(ray, range.clone()))
     }
 
     /// A bit for each of the first [`FEW`] spheres that the ray may meet, and perhaps for others.
     #[inline]
-    fn few_near(&self, ray: &Ray) -> u32 {
+    fn few_near(&self, ray: &Ray) -> u64 {
         match self.blocks.first() {
             Some(block) if Segment::allows(ray) => {
-                block.few_near_half_line(&Segment::new(ray, MARGIN))
+                block.few_near_half_line(&Segment::new(ray, MARGIN)).into()
             }
             Some(_) => (1 << FEW) - 1,
             None => 0,
         }
     }
 
-    /// The nearest of those that have a bit. Not inlined, unlike what finds that there is none, as there is for most rays.
+    /// The nearest of those of the first 64 that have a bit: for most rays of a scene, there is none.
+    #[inline(always)]
+    fn nearest_of(&self, near: u64, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
+        if near == 0 { None } else { self.nearest_of_some(near, ray, range) }
+    }
+
     #[inline(never)]
-    fn nearest_of_few(&self, near: u32, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
-        let mut near = self.spheres.iter().enumerate().filter(|(index, _)| near >> index & 1 != 0);
+    fn nearest_of_some(&self, near: u64, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
+        let mut near = self.near(near);
         nearest_among(ray, range, |_| near.next())
+    }
+
+    /// Whether any of those of the first 64 that have a bit is hit.
+    #[inline(always)]
+    fn any_of(&self, near: u64, ray: &Ray, range: Range<f32>) -> bool {
+        near != 0 && self.any_of_some(near, ray, range)
+    }
+
+    #[inline(never)]
+    fn any_of_some(&self, near: u64, ray: &Ray, range: Range<f32>) -> bool {
+        self.near(near).any(|(_, sphere)| sphere.occludes(ray, range.clone()))
+    }
+
+    /// Those of the first 64 that have a bit.
+    #[inline(always)]
+    fn near(&self, near: u64) -> impl Iterator<Item = (usize, &Sphere)> {
+        Bits(near).filter_map(|index| Some((index, self.spheres.get(index)?)))
+    }
+}
+
+/// The places of the bits of a word, ascending.
+struct Bits(u64);
+
+impl Iterator for Bits {
+    type Item = usize;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        let place = self.0.trailing_zeros();
+        self.0 &= self.0.wrapping_sub(1);
+        (place < u64::BITS).then_some(place as usize)
     }
 }
 
@@ -197,8 +237,8 @@ struct Near<'a> {
     blocks: &'a [Block],
     /// How many of the blocks have been filtered.
     filtered: usize,
-    /// A bit for each sphere that has passed and was not given yet, and the index of that of the lowest bit.
-    passed: u64,
+    /// The spheres that have passed and were not given yet, and the index of the first of that word.
+    passed: Bits,
     first: usize,
 }
 
@@ -206,26 +246,27 @@ impl<'a> Near<'a> {
     // The segment by reference: to copy it just after it was written costs more than all else here.
     #[inline(always)]
     fn new(Spheres { spheres, blocks }: &'a Spheres, lanes: Lanes, segment: &'a Segment) -> Self {
-        Self { lanes, segment, spheres, blocks, filtered: 0, first: 0, passed: 0 }
+        Self { lanes, segment, spheres, blocks, filtered: 0, passed: Bits(0), first: 0 }
     }
 
     /// The next one that the ray may meet before `end`.
     #[inline(always)]
     fn next(&mut self, end: f32) -> Option<(usize, &'a Sphere)> {
-        while self.passed == 0 {
+        loop {
+            if let Some(place) = self.passed.next() {
+                let index = self.first + place;
+                return Some((index, self.spheres.get(index)?));
+            }
             let blocks = self.blocks.get(self.filtered..)?;
             if blocks.is_empty() {
                 return None;
             }
             let (skipped, passed) = self.lanes.run(&Filter { blocks, segment: self.segment, end });
             self.first = (self.filtered + skipped) * LANES;
-            self.passed = passed;
+            self.passed = Bits(passed);
             self.filtered +=
                 if blocks.len() <= BLOCKS_IN_A_WORD { blocks.len() } else { skipped + 1 };
         }
-        let index = self.first + self.passed.trailing_zeros() as usize;
-        self.passed &= self.passed - 1;
-        Some((index, self.spheres.get(index)?))
     }
 }
 
@@ -277,7 +318,7 @@ impl Hittable for Spheres {
     #[inline]
     fn occludes(&self, ray: &Ray, range: Range<f32>) -> bool {
         if self.len() <= FEW {
-            return self.few_near(ray) != 0 && self.spheres.occludes(ray, range);
+            return self.any_of(self.few_near(ray), ray, range);
         }
         self.occludes_in_lanes(Lanes::best(), ray, range)
     }
