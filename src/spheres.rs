@@ -42,8 +42,8 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 /// Where there are many, the filter reads 16 bytes of each and computes 3 subtractions, 2 products and 6 fused multiply-adds
 /// before anything is decided. A core that starts two vectors of products in a cycle thus needs a quarter of a cycle a sphere
 /// with AVX-512, 16 lanes, and half a cycle with AVX2, 8 lanes. With SSE2, 4 lanes and nothing fused, these are 8 products and
-/// 9 sums, and a little over one cycle where two of each start at a time. A Zen 5 core takes twice, 1.2 and 1.2 times that for
-/// 65,536 spheres, 0.11, 0.13 and 0.30 ns each (`cargo bench --bench spheres` prints this for the machine at hand).
+/// 9 sums, and a little over one cycle where two of each start at a time. A Zen 5 core takes 1.9, 1.1 and 1.2 times that for
+/// 65,536 spheres, 0.11, 0.13 and 0.29 ns each (`cargo bench --bench spheres` prints this for the machine at hand).
 ///
 /// On x86-64 with the feature `std`, AVX-512 or else AVX2 and FMA are used where the machine has them; AVX-512 from Rust 1.89
 /// on. Otherwise it is what the crate is compiled for: SSE2, NEON on aarch64, and more with `-C target-cpu`. The answers are
