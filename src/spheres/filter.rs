@@ -113,8 +113,7 @@ impl Block {
         end: f32,
     ) -> u32 {
         let longest = segment.a * end;
-        // Loops over arrays, as nothing else here becomes vectors: the functions of an iterator are compiled for other
-        // instructions.
+        // Not by `array::from_fn`, which stays a call: it is compiled for other instructions than its caller.
         let mut clearance = [0.0; LANES];
         for (lane, clearance) in clearance.iter_mut().enumerate() {
             let (power, h) = self.power_and_h(instructions, lane, segment);
