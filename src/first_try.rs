@@ -31,9 +31,6 @@ const DISCRIMINANT_ERROR: f64 = 21.0 * U;
 /// Of the power, in m.
 const POWER_ERROR: f64 = 7.0 * U;
 
-/// The square of the error of h, in a o·o: twice (4 u)².
-const H_ERROR_SQUARED: f64 = 32.0 * U * U;
-
 /// A discriminant or a power is clear of doubt beyond this part of what it was subtracted from, a m or m: its relative error
 /// is then at most [`DISCRIMINANT_ERROR`] or [`POWER_ERROR`] over this.
 ///
@@ -104,11 +101,9 @@ pub(crate) fn nearest_ahead(chord: &Chord<f64>, radius_squared: f64) -> FirstTry
                 half_chord: -half_chord,
             };
         }
-    } else if power > SIGN_CERTAIN * distance_squared
-        && h < 0.0
-        && h * h > H_ERROR_SQUARED * (a * distance_squared)
-    {
-        // Just outside, as a ray that has left this sphere is, and on the way from it: both roots lie behind.
+    } else if power > SIGN_CERTAIN * distance_squared && h < 0.0 {
+        // Just outside, as a ray that has left this sphere is, and on the way from it: both roots lie behind. If h is above zero
+        // in truth, then by less than its error, h² < 16 u² a o·o, far below a power > u a o·o, and the line misses.
         return FirstTry::Miss;
     }
     FirstTry::Doubt
