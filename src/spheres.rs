@@ -185,7 +185,7 @@ impl Spheres {
         }
     }
 
-    /// The nearest of those of the first 64 that have a bit: for most rays of a scene, there is none.
+    /// The nearest of those of the first 64 that have a bit. Where none has, that takes no call.
     #[inline(always)]
     fn nearest_of(&self, near: u64, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
         if near == 0 { None } else { self.nearest_of_some(near, ray, range) }
