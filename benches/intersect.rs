@@ -217,12 +217,7 @@ fn image<V: Precision, I: Iterator<Item = Ray<V>>>(
 
 fn eye_rays(criterion: &mut Criterion) {
     let wide = |vector: Vec3| vector.as_dvec3();
-    let view = ViewRect {
-        left: f64::from(VIEW.left),
-        right: f64::from(VIEW.right),
-        bottom: f64::from(VIEW.bottom),
-        top: f64::from(VIEW.top),
-    };
+    let view = ViewRect::from(VIEW);
     let (target, up) = (Vec3::ZERO, Vec3::Y);
     let cameras = [
         (

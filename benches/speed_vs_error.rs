@@ -11,7 +11,7 @@
 use std::io;
 use std::path::Path;
 
-use eyeray::{Algebraic, Geometric, Hittable};
+use eyeray::{Algebraic, Geometric, Hittable, Ray, Scalar, Sphere};
 use glam::{DVec3, Vec3};
 
 mod measure;
@@ -21,7 +21,6 @@ mod support;
 
 use measure::arguments::{Arguments, Effort};
 use measure::{Kind, Method, report};
-use methods::{narrowed, widened};
 
 /// Cases of a family in f32 and in f64, whose exact answers take longer.
 const ACCURACY_CASES: [usize; 2] = [1_000_000, 250_000];
@@ -98,8 +97,7 @@ fn methods_f32() -> Vec<Method<Vec3>> {
             "the textbook in f64 on f32 inputs, rounded once",
             Kind::Widened,
             |ray, sphere| {
-                let (ray, sphere) = widened(ray, sphere);
-                ahead(textbook(&ray, &sphere)).map(narrowed)
+                ahead(textbook(&Ray::from(*ray), &Sphere::from(*sphere))).map(f32::from_f64)
             },
         ),
         Method::new(
@@ -107,8 +105,7 @@ fn methods_f32() -> Vec<Method<Vec3>> {
             "the stable quadratic in f64 on f32 inputs, rounded once",
             Kind::Widened,
             |ray, sphere| {
-                let (ray, sphere) = widened(ray, sphere);
-                ahead(stable(&ray, &sphere)).map(narrowed)
+                ahead(stable(&Ray::from(*ray), &Sphere::from(*sphere))).map(f32::from_f64)
             },
         ),
     ];

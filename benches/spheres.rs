@@ -14,15 +14,24 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, Throughput, criterion_group};
-use eyeray::{Camera, Hit, Hittable, Lanes, Ray, Sphere, Spheres, nearest};
-use glam::{Vec3, dvec3, vec2, vec3};
+use eyeray::{Hit, Hittable, Lanes, Ray, Scalar, Sphere, Spheres, nearest};
+use glam::{Vec3, dvec3, vec2};
 
-#[path = "../tests/support/families.rs"]
-mod families;
+#[path = "../examples/render/material.rs"]
+#[allow(dead_code, reason = "the spheres' looks make no difference")]
+mod material;
+mod measure;
 mod methods;
+#[path = "../examples/render/scene.rs"]
+#[allow(dead_code, reason = "only the spheres and the camera are needed")]
+mod scene;
+#[path = "../tests/support/mod.rs"]
+mod support;
 
-use families::Rng;
+use measure::timing::{self, PassOver, Regime};
 use methods::single::{ahead, parry_nearest, textbook};
+use scene::View;
+use support::families::Rng;
 
 const ALL: std::ops::Range<f32> = 0.0..f32::INFINITY;
 
@@ -59,24 +68,17 @@ struct Scene {
 impl Scene {
     fn new(count: usize) -> Self {
         let mut rng = Rng::new(count as u64);
-        // The same density for every number; 46 are those of `examples/render/scene.rs`.
+        // The same density for every number; 46 are those of the example, seen by its camera.
         #[expect(clippy::cast_precision_loss, reason = "counts are small")]
         let extent = 2.0 * (count as f64).cbrt();
         let slice: Vec<Sphere> = if count == 46 {
-            path_tracer()
+            scene::Scene::new().spheres.iter().collect()
         } else {
             (0..count)
                 .map(|_| Sphere::new(within(&mut rng, extent), number(&mut rng, 0.2, 0.8)))
                 .collect()
         };
-        let camera = Camera::perspective_fov(
-            vec3(1.0, 2.2, 5.3),
-            vec3(0.05, 0.33, -1.2),
-            Vec3::Y,
-            37_f32.to_radians(),
-            1.5,
-        );
-        let camera = camera.expect("its arguments are in order");
+        let camera = View::Perspective.camera(720, 480).expect("its arguments are in order");
         let mut eye_ray = || {
             if count == 46 {
                 let pixel = vec2(number(&mut rng, 0.0, 720.0), number(&mut rng, 0.0, 480.0));
@@ -106,9 +108,7 @@ impl Scene {
 }
 
 fn number(rng: &mut Rng, low: f64, high: f64) -> f32 {
-    #[expect(clippy::cast_possible_truncation, reason = "any number will do")]
-    let number = rng.uniform(low, high) as f32;
-    number
+    f32::from_f64(rng.uniform(low, high))
 }
 
 fn within(rng: &mut Rng, extent: f64) -> Vec3 {
@@ -116,29 +116,11 @@ fn within(rng: &mut Rng, extent: f64) -> Vec3 {
         .as_vec3()
 }
 
-/// The spheres of Aras Pranckevičius's benchmark `ToyPathTracer`.
-fn path_tracer() -> Vec<Sphere> {
-    let mut spheres = vec![Sphere::new(vec3(0.0, -100.5, -1.0), 100.0)];
-    let centers = [[-2, 1], [0, 1], [2, 1], [-2, -1], [0, -1], [2, -1]];
-    spheres.extend(
-        centers.map(|[x, z]: [i8; 2]| Sphere::new(vec3(f32::from(x), 0.0, f32::from(z)), 0.5)),
-    );
-    spheres.push(Sphere::new(vec3(0.5, 1.0, 0.5), 0.5));
-    spheres.push(Sphere::new(vec3(-1.5, 1.5, 0.0), 0.3));
-    spheres.push(Sphere::new(vec3(1.5, 1.5, -2.0), 0.3));
-    for z in [-3.0, -4.0, -5.0, -6.0] {
-        spheres.extend(
-            (0..9_u8).map(|column| Sphere::new(vec3(4.0 - f32::from(column), 0.0, z), 0.5)),
-        );
-    }
-    spheres
-}
-
 /// Goes through the rays of a scene.
-type Pass = Box<dyn Fn(&Scene)>;
+type Pass = PassOver<Scene>;
 
 /// A pass that stores what is found of each ray.
-fn pass<T>(find: impl Fn(&Scene, &Ray) -> T + 'static) -> Pass {
+fn pass<T>(find: impl Fn(&Scene, &Ray) -> T + Sync + 'static) -> Pass {
     Box::new(move |scene| {
         for ray in &scene.rays {
             black_box(find(scene, black_box(ray)));
@@ -173,27 +155,6 @@ fn passes() -> Vec<(String, Pass)> {
 
 const COUNTS: [usize; 7] = [1, 2, 4, 8, 46, 1024, 65_536];
 
-/// How long each pass takes for a ray of a scene, in nanoseconds: medians of rounds in which all take their turn.
-fn medians(passes: &[(String, Pass)], scene: &Scene, rounds: usize) -> Vec<f64> {
-    let mut times = vec![Vec::new(); passes.len()];
-    for _ in 0..rounds {
-        for ((_, pass), times) in passes.iter().zip(&mut times) {
-            let start = Instant::now();
-            pass(black_box(scene));
-            times.push(start.elapsed().as_secs_f64());
-        }
-    }
-    #[expect(clippy::cast_precision_loss, reason = "counts are small")]
-    let rays = scene.rays.len() as f64;
-    times
-        .into_iter()
-        .map(|mut times| {
-            times.sort_by(f64::total_cmp);
-            times[times.len() / 2] * 1e9 / rays
-        })
-        .collect()
-}
-
 /// Prints how the passes compare with the formulas, and with what the machine could do at best.
 fn print_ratios(rounds: usize) {
     let passes = passes();
@@ -203,10 +164,14 @@ fn print_ratios(rounds: usize) {
         print!("{name:>19}");
     }
     println!();
+    let turns: Vec<_> = passes.iter().map(|(_, pass)| pass).collect();
     let lanes = passes.len() - Lanes::available().count();
     let mut of_lanes = Vec::new();
     for count in COUNTS {
-        let mut medians = medians(&passes, &Scene::new(count), rounds);
+        let scene = Scene::new(count);
+        let rays = scene.rays.len();
+        let regime = Regime { cases: rays, warm_up: 0, timed: 1, rounds };
+        let mut medians = timing::medians(&turns, &scene, rays, regime);
         let formula = medians[0].min(medians[1]);
         print!("{count:>8}");
         for time in &medians {

@@ -65,11 +65,9 @@ impl<S: Scalar> Crossings<S> {
         let radii = N::ONE / (a * radius);
         let half_chord = d.map(|d| d * (half_chord * radii));
         let foot = moment.cross(d).map(|foot| foot * radii);
-        let near =
-            foot.zip(half_chord, |foot, half_chord| without_dust((foot - half_chord).to_f64()));
-        let far =
-            foot.zip(half_chord, |foot, half_chord| without_dust((foot + half_chord).to_f64()));
-        Self { t, normals: [near.into(), far.into()] }
+        let near = foot.zip(half_chord, |foot, half_chord| foot - half_chord);
+        let far = foot.zip(half_chord, |foot, half_chord| foot + half_chord);
+        Self { t, normals: [near, far].map(|normal| normal.map(without_dust).into()) }
     }
 
     /// The first crossing with a finite t > 0 in the range: its root, and the normal there.
@@ -84,8 +82,9 @@ impl<S: Scalar> Crossings<S> {
 /// A coordinate of a unit vector, zero where it is so small that the low part of a product underflowed on the way: what is left
 /// of such a part depends on whether the machine has a fused multiply-add.
 #[inline(always)]
-fn without_dust(coordinate: f64) -> f64 {
+fn without_dust<N: Number>(coordinate: N) -> f64 {
     const DUST: f64 = f64::from_bits((1023 - 800) << 52); // 2^-800
+    let coordinate = coordinate.to_f64();
     // A zero of the same sign.
     if coordinate.abs() < DUST { coordinate * 0.0 } else { coordinate }
 }

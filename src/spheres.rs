@@ -149,9 +149,8 @@ impl Spheres {
             return nearest(&self.spheres, ray, range);
         }
         let segment = Segment::new(ray, MARGIN);
-        if self.blocks.len() <= BLOCKS_IN_A_WORD {
-            let filter = Filter { blocks: &self.blocks, segment: &segment, end: range.end };
-            return self.nearest_of(lanes.run(&filter).1, ray, range);
+        if let Some(near) = self.word_near(lanes, &segment, range.end) {
+            return self.nearest_of(near, ray, range);
         }
         let mut near = Near::new(self, lanes, &segment);
         nearest_among(ray, range, |end| near.next(end))
@@ -164,9 +163,8 @@ impl Spheres {
             return self.spheres.occludes(ray, range);
         }
         let segment = Segment::new(ray, MARGIN);
-        if self.blocks.len() <= BLOCKS_IN_A_WORD {
-            let filter = Filter { blocks: &self.blocks, segment: &segment, end: range.end };
-            return self.any_of(lanes.run(&filter).1, ray, range);
+        if let Some(near) = self.word_near(lanes, &segment, range.end) {
+            return self.any_of(near, ray, range);
         }
         let mut near = Near::new(self, lanes, &segment);
         iter::from_fn(|| near.next(range.end))
@@ -183,6 +181,13 @@ impl Spheres {
             Some(_) => (1 << FEW) - 1,
             None => 0,
         }
+    }
+
+    /// A bit for each sphere that the ray may meet before `end`, and perhaps for others, if a word has bits for all.
+    #[inline(always)]
+    fn word_near(&self, lanes: Lanes, segment: &Segment, end: f32) -> Option<u64> {
+        let blocks = self.blocks.as_slice();
+        (blocks.len() <= BLOCKS_IN_A_WORD).then(|| lanes.run(&Filter { blocks, segment, end }).1)
     }
 
     /// The nearest of those of the first 64 that have a bit. Where none has, that takes no call.

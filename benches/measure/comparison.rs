@@ -33,7 +33,8 @@ impl Comparisons {
         let easy = FAMILIES.iter().find(|family| family.name == "easy").expect("it is a family");
         let passes: Vec<_> =
             std::iter::once(ours).chain(others.iter().map(|(_, pass)| pass)).collect();
-        let times = timing::medians(&passes, &cases::<V>(easy, SEED, regime.cases), regime);
+        let cases = cases::<V>(easy, SEED, regime.cases);
+        let times = timing::medians(&passes, cases.as_slice(), cases.len(), regime);
         let fastest =
             others.iter().zip(&times[1..]).min_by(|(_, one), (_, other)| one.total_cmp(other));
         if let Some(((name, _), time)) = fastest {

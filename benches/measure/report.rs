@@ -56,7 +56,8 @@ pub fn measure<V: Measured>(
     let passes: Vec<_> = methods.iter().map(|method| &method.pass).collect();
     let time = |family, regime: Regime| {
         let regime = effort.regime(regime);
-        timing::medians(&passes, &cases::<V>(family, SEED, regime.cases), regime)
+        let cases = cases::<V>(family, SEED, regime.cases);
+        timing::medians(&passes, cases.as_slice(), cases.len(), regime)
     };
     let mut rows = Vec::new();
     for family in groups::families() {

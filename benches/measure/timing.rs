@@ -3,11 +3,13 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use super::Measured;
 use crate::support::families::Case;
 
-/// Goes through all of the cases, with what is timed inlined into its loop.
-pub type Pass<V> = Box<dyn Fn(&[Case<V>]) + Sync>;
+/// Goes through all that it is given, with what is timed inlined into its loop.
+pub type PassOver<T> = Box<dyn Fn(&T) + Sync>;
+
+/// Goes through cases.
+pub type Pass<V> = PassOver<[Case<V>]>;
 
 /// How cases are gone through.
 #[derive(Clone, Copy, Debug)]
@@ -39,29 +41,34 @@ impl Regime {
 /// Passes end after this time, before as while they are timed: of what is so slow, branches are the least.
 const LONG: Duration = Duration::from_millis(3);
 
-/// The nanoseconds that each pass takes for a case: the median of rounds in each of which every one takes its turn.
-pub fn medians<V: Measured>(passes: &[&Pass<V>], cases: &[Case<V>], regime: Regime) -> Vec<f64> {
+/// The nanoseconds that each pass takes for one of `count`: the median of rounds in each of which every one takes its turn.
+pub fn medians<T: ?Sized>(
+    passes: &[&PassOver<T>],
+    input: &T,
+    count: usize,
+    regime: Regime,
+) -> Vec<f64> {
     let mut times = vec![Vec::with_capacity(regime.rounds); passes.len()];
     for _ in 0..regime.rounds {
         for (pass, times) in passes.iter().zip(&mut times) {
-            repeat(pass, cases, regime.warm_up);
-            let (passes, time) = repeat(pass, cases, regime.timed);
+            repeat(pass, input, regime.warm_up);
+            let (passes, time) = repeat(pass, input, regime.timed);
             times.push(time.as_secs_f64() * 1e9 / f64::from(passes));
         }
     }
-    #[expect(clippy::cast_precision_loss, reason = "cases are few")]
-    times.into_iter().map(|times| median(times) / cases.len() as f64).collect()
+    #[expect(clippy::cast_precision_loss, reason = "counts are small")]
+    times.into_iter().map(|times| median(times) / count as f64).collect()
 }
 
-/// Goes through the cases so many times, or fewer if that takes long. Returns how many times, and how long it took.
-fn repeat<V: Measured>(pass: &Pass<V>, cases: &[Case<V>], times: u32) -> (u32, Duration) {
+/// Goes through the input so many times, or fewer if that takes long. Returns how many times, and how long it took.
+fn repeat<T: ?Sized>(pass: &PassOver<T>, input: &T, times: u32) -> (u32, Duration) {
     let start = Instant::now();
     for done in 0..times {
         let elapsed = start.elapsed();
         if done > 0 && elapsed > LONG {
             return (done, elapsed);
         }
-        pass(black_box(cases));
+        pass(black_box(input));
     }
     (times, start.elapsed())
 }

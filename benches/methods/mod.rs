@@ -4,8 +4,8 @@
 //! `a t² - 2 h t + c = 0`, where `a = d·d`, `h = d·o` and `c = o·o - r²`; they come ascending.
 #![allow(dead_code, unreachable_pub, reason = "each benchmark takes what it needs")]
 
-use eyeray::{Ray, Sphere};
-use glam::{DVec3, Vec3};
+use eyeray::Ray;
+use glam::Vec3;
 
 /// Where a ray meets a sphere, as a shader wants it.
 #[derive(Clone, Copy, Debug)]
@@ -179,22 +179,6 @@ macro_rules! methods {
 
 methods!(single, Vec3, f32);
 methods!(double, DVec3, f64);
-
-/// The case in f64: exact.
-#[inline(always)]
-pub fn widened(ray: &Ray, sphere: &Sphere) -> (Ray<DVec3>, Sphere<DVec3>) {
-    (
-        Ray::new(ray.origin.as_dvec3(), ray.direction.as_dvec3()),
-        Sphere::new(sphere.center.as_dvec3(), sphere.radius.into()),
-    )
-}
-
-/// A root of f64, rounded to f32.
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "rounding is what this does")]
-pub fn narrowed(t: f64) -> f32 {
-    t as f32
-}
 
 /// The textbook's orthographic eye ray through (u, v): p = e + u U + v V, d = -W. S. Marschner, CS4620 lecture 6.
 #[inline(always)]

@@ -84,10 +84,6 @@ impl Scene {
     }
 }
 
-fn widened(ray: &Ray) -> Ray<DVec3> {
-    Ray::new(ray.origin.as_dvec3(), ray.direction.as_dvec3())
-}
-
 proptest! {
     #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -114,7 +110,7 @@ proptest! {
 
             // f32 rounds the pixel as well: the point is then that of the rounded one.
             let rounded = pixel.as_vec2();
-            let ray = widened(&single.pixel_ray(rounded, width, height));
+            let ray = single.pixel_ray(rounded, width, height).into();
             prop_assert!((rounded.as_dvec2() - pixel).abs().max_element() <= 0.0001);
             scene.check(&matrix, point, &ray);
         }
@@ -130,6 +126,6 @@ proptest! {
         let matrix = projection * scene.view_matrix();
         let point = matrix.inverse().project_point3(DVec3::new(x, y, 0.9));
         let pixel = scene.pixel(&matrix, point).as_vec2();
-        scene.check(&matrix, point, &widened(&camera.pixel_ray(pixel, scene.width, scene.height)));
+        scene.check(&matrix, point, &camera.pixel_ray(pixel, scene.width, scene.height).into());
     }
 }

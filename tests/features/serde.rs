@@ -1,6 +1,7 @@
 //! What is written is what is read, bit for bit, and what is no camera is not read as one.
 
 use core::fmt::Debug;
+use core::ops::Range;
 
 use eyeray::{Algebraic, Camera, Geometric, Hit, Hittable, Ray, Sphere, ViewRect};
 use glam::{DVec3, Vec3, dvec3, vec3};
@@ -152,55 +153,40 @@ fn dvec3s() -> impl Strategy<Value = DVec3> {
     [f64s(), f64s(), f64s()].prop_map(DVec3::from)
 }
 
-proptest! {
-    #[test]
-    fn plain_data_in_f32(a in vec3s(), b in vec3s(), s in f32s(), r in f32s()) {
-        round_trip(&Ray::new(a, b));
-        round_trip(&Sphere::new(a, r));
-        round_trip(&Algebraic(Sphere::new(b, r)));
-        round_trip(&Geometric(Sphere::new(b, r)));
-        round_trip(&Hit::new(s, a, b, r));
-        round_trip(&ViewRect { left: s, right: r, bottom: a.x, top: a.y });
-    }
+macro_rules! round_trips {
+    ($plain_data:ident, $cameras:ident, $float:ident, $floats:ident, $vectors:ident) => {
+        proptest! {
+            #[test]
+            fn $plain_data(a in $vectors(), b in $vectors(), s in $floats(), r in $floats()) {
+                round_trip(&Ray::new(a, b));
+                round_trip(&Sphere::new(a, r));
+                round_trip(&Algebraic(Sphere::new(b, r)));
+                round_trip(&Geometric(Sphere::new(b, r)));
+                round_trip(&Hit::new(s, a, b, r));
+                round_trip(&ViewRect { left: s, right: r, bottom: a.x, top: a.y });
+            }
 
-    #[test]
-    fn plain_data_in_f64(a in dvec3s(), b in dvec3s(), s in f64s(), r in f64s()) {
-        round_trip(&Ray::new(a, b));
-        round_trip(&Sphere::new(a, r));
-        round_trip(&Algebraic(Sphere::new(b, r)));
-        round_trip(&Geometric(Sphere::new(b, r)));
-        round_trip(&Hit::new(s, a, b, r));
-        round_trip(&ViewRect { left: s, right: r, bottom: a.x, top: a.y });
-    }
-
-    #[test]
-    fn cameras_in_f32(
-        eye in vec3s(), target in vec3s(), up in vec3s(),
-        sides in [f32s(), f32s(), f32s(), f32s()], distance in f32s(), fov_y in 0.0_f32..3.2,
-    ) {
-        let view = ViewRect { left: sides[0], right: sides[1], bottom: sides[2], top: sides[3] };
-        let cameras = [
-            Camera::orthographic(eye, target, up, view),
-            Camera::perspective(eye, target, up, view, distance),
-            Camera::perspective_fov(eye, target, up, fov_y, distance),
-        ];
-        cameras.into_iter().flatten().for_each(|camera| round_trip(&camera));
-    }
-
-    #[test]
-    fn cameras_in_f64(
-        eye in dvec3s(), target in dvec3s(), up in dvec3s(),
-        sides in [f64s(), f64s(), f64s(), f64s()], distance in f64s(), fov_y in 0.0_f64..3.2,
-    ) {
-        let view = ViewRect { left: sides[0], right: sides[1], bottom: sides[2], top: sides[3] };
-        let cameras = [
-            Camera::orthographic(eye, target, up, view),
-            Camera::perspective(eye, target, up, view, distance),
-            Camera::perspective_fov(eye, target, up, fov_y, distance),
-        ];
-        cameras.into_iter().flatten().for_each(|camera| round_trip(&camera));
-    }
+            #[test]
+            fn $cameras(
+                eye in $vectors(), target in $vectors(), up in $vectors(),
+                sides in [$floats(), $floats(), $floats(), $floats()], distance in $floats(),
+                fov_y in Range::<$float> { start: 0.0, end: 3.2 },
+            ) {
+                let [left, right, bottom, top] = sides;
+                let view = ViewRect { left, right, bottom, top };
+                let cameras = [
+                    Camera::orthographic(eye, target, up, view),
+                    Camera::perspective(eye, target, up, view, distance),
+                    Camera::perspective_fov(eye, target, up, fov_y, distance),
+                ];
+                cameras.into_iter().flatten().for_each(|camera| round_trip(&camera));
+            }
+        }
+    };
 }
+
+round_trips!(plain_data_in_f32, cameras_in_f32, f32, f32s, vec3s);
+round_trips!(plain_data_in_f64, cameras_in_f64, f64, f64s, dvec3s);
 
 #[test]
 fn a_camera_that_was_read_makes_the_same_rays() {
