@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use crate::arithmetic::number::{Number, Triple};
-use crate::chord::{Chord, Derivation};
+use crate::root::chord::{Chord, Derivation};
 use crate::{Hit, Hittable, Ray, Sphere, Vector};
 
 /// A sphere met by the algebraic derivation.

@@ -100,15 +100,3 @@ impl<V: Vector> Hit<V> {
         (direction * scale).dot(self.normal.to_f64())
     }
 }
-
-/// What a hit is made of, found by whichever way.
-///
-/// A hit is made of it in one place, whose inputs are then plain values; were the hit itself written by a call that is not
-/// inlined, the compiler would have to compute all of it, used or not.
-#[derive(Clone, Copy)]
-pub(crate) struct Found<V: Vector> {
-    pub(crate) t: V::Scalar,
-    /// From the center to the point.
-    pub(crate) offset: V,
-    pub(crate) normal: V,
-}

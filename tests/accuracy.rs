@@ -48,7 +48,7 @@ impl Contract for Vec3 {
 }
 
 impl Contract for DVec3 {
-    const ROOT: Option<f64> = Some(1.0);
+    const ROOT: Option<f64> = None;
     const POINT: f64 = 4.0;
 
     fn generate(family: &Family, rng: &mut Rng) -> Case<Self> {

@@ -5,10 +5,10 @@
 //! is neither overflow nor underflow here, and no allocation.
 
 use core::cmp::Ordering;
-use core::ops::{Add, Div, Neg, Range};
+use core::ops::Range;
 
-use super::pair::{Pair, two_sum};
-use super::scaling::{exponent, scale};
+use super::scaling::integer_and_exponent;
+pub(crate) use super::wide::Wide;
 
 #[cfg(test)]
 mod tests;
@@ -28,28 +28,10 @@ pub(crate) struct Sum {
     used: Range<usize>,
 }
 
-/// A finite `f64` as an integer below 2⁵³ and the exponent of its unit.
-fn integer_and_exponent(x: f64) -> (u64, i32) {
-    const FRACTION: u64 = (1 << 52) - 1;
-    let fraction = x.to_bits() & FRACTION;
-    match exponent(x) {
-        -1023 => (fraction, -1074),
-        e => (fraction | (FRACTION + 1), e - 52),
-    }
-}
-
 /// The four digits of an integer, least significant first.
 #[expect(clippy::cast_possible_truncation, reason = "each digit is the low half of what is left")]
 fn digits_of(integer: u128) -> [u64; 4] {
     [0, 32, 64, 96].map(|place| u64::from((integer >> place) as u32))
-}
-
-/// The first 106 of the 128 bits of an integer with its highest bit set, as a number in 1..2.
-fn leading_pair(integer: u128) -> Pair {
-    const HALF: u128 = (1 << 53) - 1;
-    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
-    let part = |bits: u128| (bits & HALF) as f64;
-    two_sum(scale(part(integer >> 75), -52), scale(part(integer >> 22), -105))
 }
 
 impl Sum {
@@ -59,11 +41,16 @@ impl Sum {
 
     /// Adds `times` the product of four finite numbers. |`times`| is 1 or 2.
     pub(crate) fn add(&mut self, times: i64, factors: [f64; 4]) {
+        self.add_scaled(times, 0, factors);
+    }
+
+    /// Adds `times` the product of four finite numbers, times 2^`power`: as a whole, in the range of products of four numbers.
+    pub(crate) fn add_scaled(&mut self, times: i64, power: i32, factors: [f64; 4]) {
         if factors.contains(&0.0) {
             return;
         }
         let mut negative = times < 0;
-        let mut unit = 0;
+        let mut unit = power;
         let mut integers = [0_u128; 4];
         for (integer, factor) in integers.iter_mut().zip(factors) {
             let (mantissa, exponent) = integer_and_exponent(factor);
@@ -136,15 +123,14 @@ impl Sum {
             let digit = top.checked_sub(below).map_or(0, |index| self.digits[index]);
             (leading << DIGIT) | u128::from(digit.unsigned_abs())
         });
-        let zeros = leading.leading_zeros();
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_possible_wrap,
-            reason = "both are small"
+            reason = "there are 265 digits"
         )]
-        let exponent = LEAST + DIGIT * (top as i32 - 3) + 127 - zeros as i32;
-        let value = leading_pair(leading << zeros);
-        Wide { value: if negative { -value } else { value }, exponent }
+        let unit = LEAST + DIGIT * (top as i32 - 3);
+        let value = Wide::from_integer(leading, unit);
+        if negative { -value } else { value }
     }
 
     /// The sign: how the sum compares with 0.
@@ -155,81 +141,5 @@ impl Sum {
             _ if self.used().iter().any(|digit| *digit != 0) => Ordering::Greater,
             _ => Ordering::Equal,
         }
-    }
-}
-
-/// A number of any exponent: `value` 2^`exponent`.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Wide {
-    value: Pair,
-    exponent: i32,
-}
-
-impl Wide {
-    const ZERO: Self = Self { value: Pair { hi: 0.0, lo: 0.0 }, exponent: 0 };
-
-    pub(crate) fn is_negative(self) -> bool {
-        self.value.hi < 0.0
-    }
-
-    pub(crate) fn is_zero(self) -> bool {
-        self.value.hi == 0.0
-    }
-
-    /// The e of 2ᵉ ≤ |x| < 2ᵉ⁺¹, for the value x of a [`Sum`] that is not zero.
-    pub(crate) fn exponent(self) -> i32 {
-        self.exponent
-    }
-
-    /// The number times 2ᵉ, as a pair: with e its own exponent negated, in the middle of the range.
-    pub(crate) fn scaled(self, e: i32) -> Pair {
-        let e = self.exponent.saturating_add(e);
-        Pair { hi: scale(self.value.hi, e), lo: scale(self.value.lo, e) }
-    }
-
-    /// The number rounded to an `f64`, gradually below the normal ones.
-    pub(crate) fn to_f64(self) -> f64 {
-        scale(self.value.hi, self.exponent)
-    }
-
-    /// The square root of a positive number or zero.
-    pub(crate) fn sqrt(self) -> Self {
-        if self.is_zero() {
-            return Self::ZERO;
-        }
-        let odd = self.exponent.rem_euclid(2);
-        Self { value: self.scaled(odd - self.exponent).sqrt(), exponent: (self.exponent - odd) / 2 }
-    }
-}
-
-impl Neg for Wide {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        Self { value: -self.value, ..self }
-    }
-}
-
-impl Add for Wide {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        if self.is_zero() {
-            return other;
-        }
-        if other.is_zero() {
-            return self;
-        }
-        let unit = self.exponent.max(other.exponent);
-        let value = self.scaled(-unit) + other.scaled(-unit);
-        Self { value, exponent: unit }
-    }
-}
-
-impl Div for Wide {
-    type Output = Self;
-
-    fn div(self, other: Self) -> Self {
-        Self { value: self.value / other.value, exponent: self.exponent - other.exponent }
     }
 }

@@ -3,5 +3,7 @@
 pub(crate) mod exact;
 pub(crate) mod number;
 pub(crate) mod pair;
+pub(crate) mod product;
 pub(crate) mod rounding;
 pub(crate) mod scaling;
+pub(crate) mod wide;

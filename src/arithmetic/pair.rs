@@ -66,7 +66,7 @@ pub(crate) fn two_difference(a: f64, b: f64) -> Pair {
 
 /// `a + b`, exactly, where |a| ≥ |b| or a = 0 (Dekker's fast two-sum).
 #[inline(always)]
-fn fast_two_sum(a: f64, b: f64) -> Pair {
+pub(crate) fn fast_two_sum(a: f64, b: f64) -> Pair {
     let hi = a + b;
     Pair { hi, lo: b - (hi - a) }
 }

@@ -10,6 +10,17 @@ pub(crate) fn exponent(x: f64) -> i32 {
     biased - 1023
 }
 
+/// A finite `f64` as an integer below 2⁵³ and the exponent of its unit.
+#[inline]
+pub(crate) fn integer_and_exponent(x: f64) -> (u64, i32) {
+    const FRACTION: u64 = (1 << 52) - 1;
+    let fraction = x.to_bits() & FRACTION;
+    match exponent(x) {
+        -1023 => (fraction, -1074),
+        e => (fraction | (FRACTION + 1), e - 52),
+    }
+}
+
 /// 2ᵉ for −1022 ≤ e ≤ 1023.
 #[inline]
 fn power_of_two(e: i32) -> f64 {

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use crate::chord::Derivation;
+use super::chord::Derivation;
 use crate::{Hit, Ray, Sphere, Vector};
 
 /// A vector type whose precision has a way to carry a derivation through to the contract.

@@ -1,0 +1,101 @@
+//! Numbers of any exponent: a pair times a power of two.
+
+use core::ops::{Add, Div, Neg};
+
+use super::pair::{Pair, two_sum};
+use super::scaling::scale;
+
+/// The first 106 of the 128 bits of an integer with its highest bit set, as a number in 1..2.
+fn leading_pair(integer: u128) -> Pair {
+    const HALF: u128 = (1 << 53) - 1;
+    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
+    let part = |bits: u128| (bits & HALF) as f64;
+    two_sum(scale(part(integer >> 75), -52), scale(part(integer >> 22), -105))
+}
+
+/// A number of any exponent: `value` 2^`exponent`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wide {
+    value: Pair,
+    exponent: i32,
+}
+
+impl Wide {
+    pub(crate) const ZERO: Self = Self { value: Pair { hi: 0.0, lo: 0.0 }, exponent: 0 };
+
+    /// `magnitude` 2^`unit`, rounded to 106 bits.
+    pub(crate) fn from_integer(magnitude: u128, unit: i32) -> Self {
+        if magnitude == 0 {
+            return Self::ZERO;
+        }
+        let zeros = magnitude.leading_zeros();
+        #[expect(clippy::cast_possible_wrap, reason = "at most 127")]
+        let exponent = unit + 127 - zeros as i32;
+        Self { value: leading_pair(magnitude << zeros), exponent }
+    }
+
+    pub(crate) fn is_negative(self) -> bool {
+        self.value.hi < 0.0
+    }
+
+    pub(crate) fn is_zero(self) -> bool {
+        self.value.hi == 0.0
+    }
+
+    /// The e of 2ᵉ ≤ |x| < 2ᵉ⁺¹, for the value x of a [`Sum`] that is not zero.
+    pub(crate) fn exponent(self) -> i32 {
+        self.exponent
+    }
+
+    /// The number times 2ᵉ, as a pair: with e its own exponent negated, in the middle of the range.
+    pub(crate) fn scaled(self, e: i32) -> Pair {
+        let e = self.exponent.saturating_add(e);
+        Pair { hi: scale(self.value.hi, e), lo: scale(self.value.lo, e) }
+    }
+
+    /// The number rounded to an `f64`, gradually below the normal ones.
+    pub(crate) fn to_f64(self) -> f64 {
+        scale(self.value.hi, self.exponent)
+    }
+
+    /// The square root of a positive number or zero.
+    pub(crate) fn sqrt(self) -> Self {
+        if self.is_zero() {
+            return Self::ZERO;
+        }
+        let odd = self.exponent.rem_euclid(2);
+        Self { value: self.scaled(odd - self.exponent).sqrt(), exponent: (self.exponent - odd) / 2 }
+    }
+}
+
+impl Neg for Wide {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self { value: -self.value, ..self }
+    }
+}
+
+impl Add for Wide {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        if self.is_zero() {
+            return other;
+        }
+        if other.is_zero() {
+            return self;
+        }
+        let unit = self.exponent.max(other.exponent);
+        let value = self.scaled(-unit) + other.scaled(-unit);
+        Self { value, exponent: unit }
+    }
+}
+
+impl Div for Wide {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        Self { value: self.value / other.value, exponent: self.exponent - other.exponent }
+    }
+}

@@ -1,0 +1,111 @@
+//! Where a line crosses a sphere: the choice of the root that a ray hits, and the point and the normal there.
+
+use core::ops::Range;
+
+use glam::DVec3;
+
+use crate::arithmetic::number::Triple;
+use crate::arithmetic::pair::{Pair, two_difference};
+use crate::{Ray, Sphere, Vector};
+
+/// A line and a sphere as the caller gave them.
+pub(crate) struct Line {
+    pub(crate) origin: DVec3,
+    pub(crate) direction: DVec3,
+    pub(crate) center: DVec3,
+    pub(crate) radius: f64,
+}
+
+impl Line {
+    #[inline(always)]
+    pub(crate) fn new<V: Vector>(sphere: &Sphere<V>, ray: &Ray<V>) -> Self {
+        Self {
+            origin: ray.origin.to_f64(),
+            direction: ray.direction.to_f64(),
+            center: sphere.center.to_f64(),
+            radius: sphere.radius.into(),
+        }
+    }
+
+    /// c - p, exactly, unless it overflows on the way.
+    #[inline(always)]
+    pub(crate) fn o(&self) -> Triple<Pair> {
+        Triple::from(self.center).zip(Triple::from(self.origin), two_difference)
+    }
+
+    /// Whether a ray can meet the sphere at all: no NaN, no infinity, no zero direction, no negative radius.
+    pub(crate) fn is_valid(&self) -> bool {
+        self.origin.is_finite()
+            && self.direction.is_finite()
+            && self.center.is_finite()
+            && self.radius.is_finite()
+            && self.direction != DVec3::ZERO
+            && self.radius >= 0.0
+    }
+}
+
+/// One of the two roots.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Side {
+    /// Where the line enters.
+    Near,
+    /// Where it leaves.
+    Far,
+}
+
+/// What a step says.
+pub(crate) enum Verdict<T> {
+    /// The line misses, or nothing is ahead in the range.
+    Miss,
+    Hit(T),
+    /// The next step has to look.
+    Doubt,
+}
+
+impl<T> Verdict<T> {
+    /// The verdict of `next` on a hit.
+    #[inline(always)]
+    pub(crate) fn and_then<U>(self, next: impl FnOnce(T) -> Verdict<U>) -> Verdict<U> {
+        match self {
+            Self::Miss => Verdict::Miss,
+            Self::Hit(hit) => next(hit),
+            Self::Doubt => Verdict::Doubt,
+        }
+    }
+}
+
+/// A hit in `f64`, whose `t` is rounded to the format asked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Found {
+    pub(crate) t: f64,
+    pub(crate) point: DVec3,
+    pub(crate) normal: DVec3,
+}
+
+/// The two crossings, as a step knows them.
+pub(crate) trait Crossings {
+    /// The root, correctly rounded, if this step can tell it.
+    fn root(&self, side: Side) -> Option<f64>;
+
+    /// The hit at that root, if this step can tell it within the tolerance of the format.
+    fn hit(&self, side: Side, t: f64) -> Option<Found>;
+}
+
+/// The first crossing with a finite t > 0 in the range.
+pub(crate) fn nearest(crossings: &dyn Crossings, range: &Range<f64>) -> Verdict<Found> {
+    for side in [Side::Near, Side::Far] {
+        let Some(t) = crossings.root(side) else { return Verdict::Doubt };
+        if t > 0.0 && t < f64::INFINITY && range.contains(&t) {
+            return crossings.hit(side, t).map_or(Verdict::Doubt, Verdict::Hit);
+        }
+    }
+    Verdict::Miss
+}
+
+/// Both roots, ascending.
+pub(crate) fn both(crossings: &dyn Crossings) -> Verdict<[f64; 2]> {
+    match (crossings.root(Side::Near), crossings.root(Side::Far)) {
+        (Some(near), Some(far)) => Verdict::Hit([near, far]),
+        _ => Verdict::Doubt,
+    }
+}

@@ -1,0 +1,165 @@
+//! The format that a root is rounded to, and rounding to it for sure.
+//!
+//! Ziv, *Fast Evaluation of Elementary Mathematical Functions with Correctly Rounded Last Bit* (1991): where both ends of an
+//! interval that holds the exact value round to the same number, that is the exact value correctly rounded. Where they round
+//! to neighbors, the exact value has to be compared with the one number midway between them.
+
+use core::cmp::Ordering;
+
+use crate::arithmetic::pair::{Pair, U};
+use crate::arithmetic::rounding::RoundDown;
+use crate::arithmetic::scaling::integer_and_exponent;
+
+/// A format of floating-point numbers, all of which are `f64` too.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Format {
+    F32,
+    F64,
+}
+
+/// How far off a point may be besides the rounding of its coordinates: by the smaller of two lengths.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PointTolerance {
+    /// A part of the distance travelled, t times the direction's length.
+    pub(crate) of_distance: f64,
+    /// A part of the radius.
+    pub(crate) of_radius: f64,
+}
+
+impl Format {
+    /// What every step keeps to.
+    pub(crate) const fn point_tolerance(self) -> PointTolerance {
+        match self {
+            // 2^-30 and 2^-24.
+            Self::F32 => PointTolerance {
+                of_distance: f32::EPSILON as f64 / 128.0,
+                of_radius: f32::EPSILON as f64 / 2.0,
+            },
+            // 2^-60 and 2^-53.
+            Self::F64 => PointTolerance { of_distance: U / 128.0, of_radius: U },
+        }
+    }
+
+    /// Rounds the exact value that `t` is known to be within `relative_error` of.
+    ///
+    /// `compare` says how the exact value compares with a number midway between two neighbors, and is asked only if the answer
+    /// depends on it. `None` where more than two neighbors are possible.
+    #[inline]
+    pub(crate) fn round(
+        self,
+        t: Pair,
+        relative_error: f64,
+        compare: impl FnOnce(Midpoint) -> Ordering,
+    ) -> Option<f64> {
+        let error = t.hi.abs() * relative_error;
+        match self {
+            Self::F32 => {
+                // Half an ulp of an f64 for each end, half for the low part, and half to spare.
+                let error = error + t.hi.abs() * (4.0 * U);
+                #[expect(clippy::cast_possible_truncation, reason = "rounding is what this does")]
+                let [low, high] = [(t.hi - error) as f32, (t.hi + error) as f32];
+                // In bits, because an interval around zero has two.
+                if low.to_bits() == high.to_bits() {
+                    return Some(low.into());
+                }
+                let are_neighbors = high.next_below() == low;
+                let ends = Ends { low: low.into(), high: high.into() };
+                are_neighbors.then(|| ends.choose(Self::F32, low.to_bits() % 2 == 0, compare))
+            }
+            Self::F64 => {
+                // Each end is rounded once to a number of the format; before that, by far less than the error.
+                let [low, high] = [t.hi + (t.lo - error), t.hi + (t.lo + error)];
+                if low.to_bits() == high.to_bits() {
+                    return Some(low);
+                }
+                let are_neighbors = high.next_below() == low;
+                let ends = Ends { low, high };
+                are_neighbors.then(|| ends.choose(Self::F64, low.to_bits() % 2 == 0, compare))
+            }
+        }
+    }
+
+    /// Rounds the exact value that `t` is within an ulp of, above 2⁹⁰⁰ or below 2⁻⁹⁰⁰.
+    ///
+    /// `compare` says how the exact value compares with a number midway between two neighbors.
+    pub(crate) fn round_at_the_ends(self, t: f64, compare: impl Fn(Midpoint) -> Ordering) -> f64 {
+        if self == Self::F32 {
+            #[expect(clippy::cast_possible_truncation, reason = "to zero or to infinity")]
+            return f64::from(t as f32);
+        }
+        // Each neighbor, unless the exact value is on this side of midway.
+        let belongs_beyond = |neighbor: f64, beyond: Ordering| {
+            let ends = Ends { low: t.min(neighbor), high: t.max(neighbor) };
+            let compared = compare(ends.midpoint(self));
+            compared == beyond || (compared == Ordering::Equal && t.to_bits() % 2 == 1)
+        };
+        let (below, above) = (t.next_below(), -(-t).next_below());
+        if t != f64::INFINITY && belongs_beyond(above, Ordering::Greater) {
+            above
+        } else if t != f64::NEG_INFINITY && belongs_beyond(below, Ordering::Less) {
+            below
+        } else {
+            t
+        }
+    }
+
+    /// The least exponent of an ulp.
+    const fn least_exponent(self) -> i32 {
+        match self {
+            Self::F32 => -149,
+            Self::F64 => -1074,
+        }
+    }
+
+    /// The bits of a mantissa.
+    const fn digits(self) -> i32 {
+        match self {
+            Self::F32 => 24,
+            Self::F64 => 53,
+        }
+    }
+}
+
+/// Two neighbors of a format.
+struct Ends {
+    low: f64,
+    high: f64,
+}
+
+impl Ends {
+    /// The nearer one to the value that is compared; of two equally near ones, the even one.
+    fn choose(
+        &self,
+        format: Format,
+        low_is_even: bool,
+        compare: impl FnOnce(Midpoint) -> Ordering,
+    ) -> f64 {
+        match compare(self.midpoint(format)) {
+            Ordering::Less => self.low,
+            Ordering::Equal if low_is_even => self.low,
+            _ => self.high,
+        }
+    }
+
+    /// The number midway. Infinity stands for the power of two that would come next.
+    fn midpoint(&self, format: Format) -> Midpoint {
+        let negative = self.high <= 0.0;
+        // The one nearer to zero, as an integer times an ulp of the format.
+        let (mantissa, exponent) =
+            integer_and_exponent(if negative { self.high } else { self.low });
+        let spare = 53 - format.digits();
+        let ulp = (exponent + spare).max(format.least_exponent());
+        let magnitude = mantissa.checked_shr((ulp - exponent).unsigned_abs()).unwrap_or(0);
+        #[expect(clippy::cast_possible_wrap, reason = "54 bits")]
+        let integer = (2 * magnitude + 1) as i64;
+        Midpoint { integer: if negative { -integer } else { integer }, exponent: ulp - 1 }
+    }
+}
+
+/// The number midway between two neighbors of a format: `integer` 2^`exponent`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Midpoint {
+    /// Odd, and of at most 54 bits.
+    pub(crate) integer: i64,
+    pub(crate) exponent: i32,
+}

@@ -1,0 +1,170 @@
+//! The second step of `f64`: a correction of the root, from halves of 26 bits whose products and sums are exact.
+//!
+//! With w = t d - o, from the center to where the ray is at t, the quadratic is f = w·w - r², and its slope 2 w·d. From a root
+//! of the first step, t + τ is better, where τ solves a τ² + 2 (w·d) τ + f = 0: with q = f / 2 (w·d), to third order
+//!
+//! ```text
+//! τ = -q (1 + a q / 2 (w·d))
+//! ```
+//!
+//! Nearly all of f cancels, so it has to be computed in more than 53 bits. [`Halves`] splits a vector into a high part, every
+//! coordinate a multiple of the same power of two and of at most 26 bits, and a low part of the rest. A dot product of high
+//! parts is then exact in plain `f64`, whichever way it is summed up: each product is an integer multiple of one power of two,
+//! and by the inequality of Cauchy and Schwarz no partial sum exceeds 2⁵³ of these. Only products with low parts are rounded,
+//! and these are 2⁻²⁶ of the whole. (Rump, Ogita and Oishi, *Accurate Floating-Point Summation*, 2008, extract vectors so.)
+//!
+//! **The error**, with m the larger of o·o and r², and each t |d| ≤ 2 √m, to first order. What is rounded in a coordinate of w are
+//! t.high d.low, t.low d, their sum, its difference from o.low, and what is added to that: with low parts of 2⁻²⁵ of t, 2⁻²⁶ of
+//! |d| and 2⁻²⁶ of |o|, in all 2⁻⁷⁴ √m. In f, that makes 2⁻⁷³ r √m; the low part of w is at most 2⁻²² √m, and six roundings of
+//! its product with 2 w are 2⁻⁷² r √m more. So f errs by at most 2⁻⁷¹ r √m, and τ by 2⁻⁷² r √m / s, where s = |w·d| is half the
+//! chord. A root is accepted where (s t)² > 2⁻²⁰ r² m, so that this is at most 2⁻⁶² t.
+//!
+//! By the bound of the first step with [`CLEAR`], |τ| < 2⁻³⁵ t, and s > [`CLEAR`] √(a m) / 2. So what the plain slope w·d errs by,
+//! 4 u r |d| / s < 2⁻³⁶ of itself, is 2⁻⁷¹ of t; and the term of fourth order, τ (a τ / s)², is below 2⁻⁷⁵ of t.
+
+use glam::DVec3;
+
+use super::chord::Chord;
+use super::crossing::Line;
+use crate::arithmetic::pair::{U, two_sum};
+
+/// The part `clear` of the first step: see there.
+pub(super) const CLEAR: f64 = 1.0 / 8192.0;
+
+/// The square of the least s t, in r² m.
+const CLEAR_OF_RESIDUAL: f64 = 1.0 / 1_048_576.0;
+
+/// How far off a corrected root may be, as a part of itself: 2⁻⁶², and half of that for all else.
+pub(super) const ROOT_ERROR: f64 = U / 512.0 * 1.5;
+
+/// A vector as the sum of two, exactly.
+#[derive(Clone, Copy, Debug)]
+struct Halves {
+    high: DVec3,
+    low: DVec3,
+}
+
+impl Halves {
+    #[inline(always)]
+    fn new(vector: DVec3, splitter: f64) -> Self {
+        let high = (vector + splitter) - splitter;
+        Self { high, low: vector - high }
+    }
+}
+
+/// The number that, added to what has that square and subtracted again, leaves 26 bits of it: 3/2 2²⁶ times a power of two that
+/// is no less than the root of the square.
+#[inline(always)]
+fn splitter(square: f64) -> f64 {
+    // The exponent of the power of two is half of that of the square, rounded up.
+    const ROUND_UP: u64 = 1077 << 52;
+    const HALF: u64 = 1 << 51;
+    f64::from_bits((square.to_bits() + ROUND_UP) >> 53 << 52 | HALF)
+}
+
+/// A corrected root, and where the ray is there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corrected {
+    /// Correctly rounded.
+    pub(super) t: f64,
+    pub(super) point: DVec3,
+    /// From the center to the point.
+    pub(super) offset: DVec3,
+}
+
+/// What the correction of either root needs.
+pub(super) struct Correction {
+    o: Halves,
+    d: Halves,
+    direction: DVec3,
+    origin: DVec3,
+    radius: Half,
+    a: f64,
+    /// r² m.
+    residual_size: f64,
+    radius_splitter: f64,
+}
+
+/// A number as the sum of two.
+#[derive(Clone, Copy)]
+struct Half {
+    high: f64,
+    low: f64,
+}
+
+impl Correction {
+    /// With o rounded, and m as `larger`.
+    #[inline(always)]
+    pub(super) fn new(
+        line: &Line,
+        o: DVec3,
+        chord: &Chord<f64>,
+        radius_squared: f64,
+        larger: f64,
+    ) -> Self {
+        let Chord { a, distance_squared, .. } = *chord;
+        let exact_o = line.o();
+        let o_low = DVec3::new(exact_o.x.lo, exact_o.y.lo, exact_o.z.lo);
+        let Halves { high, low } = Halves::new(o, splitter(distance_squared));
+        let radius_splitter = splitter(radius_squared);
+        let radius_high = (line.radius + radius_splitter) - radius_splitter;
+        Self {
+            o: Halves { high, low: low + o_low },
+            d: Halves::new(line.direction, splitter(a)),
+            direction: line.direction,
+            origin: line.origin,
+            radius: Half { high: radius_high, low: line.radius - radius_high },
+            a,
+            residual_size: radius_squared * larger,
+            radius_splitter,
+        }
+    }
+
+    /// Corrects a root of the first step, and rounds it; `None` where that is not certain.
+    #[inline(always)]
+    pub(super) fn correct(&self, t: f64, half_chord: f64) -> Option<Corrected> {
+        /// The highest 26 bits.
+        const HIGH: u64 = !0 << 27;
+        let high = f64::from_bits(t.to_bits() & HIGH);
+        let low = t - high;
+
+        // w = t d - o.
+        let step = self.d.high * high;
+        let step_low = self.d.low * high + self.direction * low;
+        let w_high = ((step - self.o.high) + self.radius_splitter) - self.radius_splitter;
+        let w_low = (step - (w_high + self.o.high)) + (step_low - self.o.low);
+        let w = w_high + w_low;
+
+        // f = w·w - r²: the sum of high parts is exact.
+        let Half { high: r_high, low: r_low } = self.radius;
+        let f_high = w_high.dot(w_high) - r_high * r_high;
+        let f_low = w_low.dot(w + w_high) - r_low * (r_low + 2.0 * r_high);
+        let f = f_high + f_low;
+
+        let inverse_slope = (2.0 * w.dot(self.direction)).recip();
+        let q = f * inverse_slope;
+        let tau = -(q + q * (self.a * q * inverse_slope));
+
+        let rounded = t + tau;
+        let rest = tau - (rounded - t);
+        let error = t.abs() * ROOT_ERROR;
+        let way = half_chord * t;
+        let is_certain = rounded + (rest + error) == rounded
+            && rounded + (rest - error) == rounded
+            && way * way > CLEAR_OF_RESIDUAL * self.residual_size;
+        let coordinate = |p: f64, step: f64, low: f64, d: f64| {
+            let sum = two_sum(p, step);
+            sum.hi + (sum.lo + (low + tau * d))
+        };
+        let (p, d) = (self.origin, self.direction);
+        is_certain.then(|| Corrected {
+            t: rounded,
+            point: DVec3::new(
+                coordinate(p.x, step.x, step_low.x, d.x),
+                coordinate(p.y, step.y, step_low.y, d.y),
+                coordinate(p.z, step.z, step_low.z, d.z),
+            ),
+            offset: w_high + (w_low + d * tau),
+        })
+    }
+}

@@ -1,0 +1,156 @@
+//! `f32`: the plain step in `f64`, where the inputs and most of their products are exact, and one rounding.
+
+use core::ops::Range;
+
+use glam::{DVec3, Vec3};
+
+use super::chord::{Chord, Derivation};
+use super::crossing::Line;
+use super::format::Format;
+use super::plain::{self, Both, Nearest};
+use super::precision::Precision;
+use super::{both_carefully, nearest_carefully};
+use crate::arithmetic::number::Triple;
+use crate::arithmetic::pair::U;
+use crate::arithmetic::rounding::rounds_safely;
+use crate::{Hit, Ray, Sphere};
+
+/// The part `clear` of the plain step.
+///
+/// The smaller, the more rays are decided there, but the less is known of each root; at 2⁻¹⁶ one easy case in 230 has a root too
+/// close to the middle of two `f32`.
+const CLEAR: f64 = 1.0 / 65536.0;
+
+/// The plain step's error in units of the last of 53 places, at most its relative error over 2⁻⁵³.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1,179,648")]
+const MARGIN: u32 = (plain::ROOT_ERROR / CLEAR / U) as u32;
+
+/// Up to this square of distance over radius, t d - o is a good way from the center to the point.
+///
+/// With |o| ≤ 128 r, the error of t moves the point by no more than 18 u / [`CLEAR`] of 129 r, which is 2⁻²⁵ r.
+const NEAR: f64 = 16384.0;
+
+/// A line and a sphere in `f64`.
+struct Setting {
+    line: Line,
+    /// From the ray's origin to the center, rounded.
+    o: DVec3,
+    /// Negative where the radius is.
+    radius_squared: f64,
+}
+
+impl Setting {
+    #[inline(always)]
+    fn new(sphere: &Sphere, ray: &Ray) -> Self {
+        let line = Line::new(sphere, ray);
+        let o = line.center - line.origin;
+        let radius_squared = line.radius * line.radius.abs();
+        Self { line, o, radius_squared }
+    }
+
+    #[inline(always)]
+    fn chord<D: Derivation>(&self) -> Chord<f64> {
+        D::chord(Triple::from(self.o), Triple::from(self.line.direction), self.radius_squared)
+    }
+
+    /// The hit at a root of the plain step.
+    ///
+    /// From afar, where the error of t would move the point, the way from the center is taken by the closest approach. Its foot
+    /// is off by 4√2 u |o| at most, and half the chord, which is more than [`CLEAR`] |o| there, by half of the error of its square,
+    /// 8 u (2 r² + r |o|), over itself: together less than 2⁻³⁴ r.
+    #[inline(always)]
+    fn hit(&self, a: f64, distance_squared: f64, t: f64, rounded: f32, half_chord: f64) -> Hit {
+        let Self { ref line, o, radius_squared } = *self;
+        let step = line.direction * t;
+        let (point, offset) = if distance_squared <= NEAR * radius_squared {
+            (line.origin + step, step - o)
+        } else {
+            let moment = o.cross(line.direction);
+            let square = a * radius_squared - moment.length_squared();
+            let along = crate::float::sqrt(square.max(0.0)).copysign(-half_chord);
+            let offset = (moment.cross(line.direction) + line.direction * along) / a;
+            (line.center + offset, offset)
+        };
+        let normal = offset * line.radius.recip();
+        hit(line, rounded, point, normal)
+    }
+}
+
+impl Precision for Vec3 {
+    // Inlined always: so that what a caller does not use of the hit is not computed.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
+    fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
+        let setting = Setting::new(sphere, ray);
+        let chord = setting.chord::<D>();
+        match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR) {
+            Nearest::Miss => return None,
+            Nearest::Root { t, half_chord } => {
+                let rounded = t as f32;
+                // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
+                if rounds_safely::<MARGIN>(t)
+                    && rounded >= range.start
+                    && rounded >= f32::MIN_POSITIVE
+                {
+                    return (rounded < range.end).then(|| {
+                        setting.hit(chord.a, chord.distance_squared, t, rounded, half_chord)
+                    });
+                }
+            }
+            Nearest::Doubt => {}
+        }
+        let line = &setting.line;
+        let found = nearest_carefully(line, Format::F32, range.start.into()..range.end.into())?;
+        Some(hit(line, found.t as f32, found.point, found.normal))
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "the roots are rounded once, here")]
+    fn roots<D: Derivation>(sphere: &Sphere, ray: &Ray) -> Option<[f32; 2]> {
+        let setting = Setting::new(sphere, ray);
+        match plain::both(&setting.chord::<D>(), setting.radius_squared, CLEAR) {
+            Both::Miss => return None,
+            Both::Roots { t: [near, far], .. }
+                if rounds_safely::<MARGIN>(near) && rounds_safely::<MARGIN>(far) =>
+            {
+                let rounded = [near as f32, far as f32];
+                if rounded[0].is_normal() && rounded[1].is_normal() {
+                    return Some(rounded);
+                }
+            }
+            _ => {}
+        }
+        both_carefully(&setting.line, Format::F32).map(|roots| roots.map(|root| root as f32))
+    }
+}
+
+/// The hit of which everything is known in `f64`.
+#[inline(always)]
+fn hit(line: &Line, t: f32, point: DVec3, normal: DVec3) -> Hit {
+    let point = point.as_vec3();
+    let clearance = clearance(point, t, line);
+    Hit { t, point, normal: normal.as_vec3(), clearance }
+}
+
+/// How far along the normal a spawned ray starts.
+///
+/// With x the largest coordinate of the point, an ulp of x is at most 2⁻²³ x. The rounding of the point is half an ulp a
+/// coordinate, that of the spawned origin as much, or one where it passes a power of two: together at most 1.51 √3 < 2.7 ulp of
+/// distance, and there are 4. All else that the point is off is at most the smaller of 2⁻³¹ of the distance travelled and 2⁻²⁵ of
+/// the radius, where there are 2⁻²⁹ of the largest coordinate of that way, which is at least 1/√3 of it, and 2⁻²⁴. Where an ulp is
+/// no smaller than the smallest numbers, there are 4 of these.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "there is room for rounding")]
+fn clearance(point: Vec3, t: f32, line: &Line) -> f32 {
+    const FOUR_ULPS: f32 = 4.0 * f32::EPSILON;
+    const OF_DISTANCE: f32 = f32::EPSILON / 64.0;
+    const OF_RADIUS: f32 = f32::EPSILON / 2.0;
+    const FOUR_LEAST: f32 = f32::from_bits(4);
+    // Not `f32::max`, which takes care of NaN: here there is none.
+    let larger = |a: f32, b: f32| if a > b { a } else { b };
+    let smaller = |a: f32, b: f32| if a < b { a } else { b };
+    let largest = |v: Vec3| larger(larger(v.x.abs(), v.y.abs()), v.z.abs());
+    let travelled = t * largest(line.direction.as_vec3());
+    let off = smaller(travelled * OF_DISTANCE, line.radius as f32 * OF_RADIUS);
+    largest(point) * FOUR_ULPS + (off + FOUR_LEAST)
+}

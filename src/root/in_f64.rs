@@ -1,0 +1,138 @@
+//! `f64`: the plain step, a correction of its root, and one rounding.
+
+use core::ops::Range;
+
+use glam::DVec3;
+
+use super::chord::{Chord, Derivation};
+use super::crossing::Line;
+use super::format::Format;
+use super::halves::{self, Correction};
+use super::plain::{self, Both, Nearest};
+use super::precision::Precision;
+use super::{both_carefully, nearest_carefully};
+use crate::arithmetic::number::Triple;
+use crate::{Hit, Ray, Sphere};
+
+/// Whether a square, a or the larger of o·o and r², is between 2⁻⁴⁸⁰ and 2⁴⁸⁰: then no product of two of them overflows, and
+/// what underflows on the way is far below the error bounds.
+#[inline(always)]
+fn is_safe(square: f64) -> bool {
+    const LEAST: u64 = (1023 - 480) << 52;
+    const SPAN: u64 = 960 << 52;
+    // Above the span are all negative numbers, infinities and NaN.
+    square.to_bits().wrapping_sub(LEAST) < SPAN
+}
+
+/// A line and a sphere.
+struct Setting {
+    line: Line,
+    /// From the ray's origin to the center, rounded.
+    o: DVec3,
+    /// Negative where the radius is.
+    radius_squared: f64,
+}
+
+impl Setting {
+    #[inline(always)]
+    fn new(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> Self {
+        let line = Line::new(sphere, ray);
+        let o = line.center - line.origin;
+        let radius_squared = line.radius * line.radius.abs();
+        Self { line, o, radius_squared }
+    }
+
+    /// The chord in plain `f64`, unless its terms might overflow or underflow.
+    #[inline(always)]
+    fn chord<D: Derivation>(&self) -> Option<Chord<f64>> {
+        let (o, d) = (Triple::from(self.o), Triple::from(self.line.direction));
+        let chord = D::chord(o, d, self.radius_squared);
+        (is_safe(chord.a) && is_safe(self.larger(&chord))).then_some(chord)
+    }
+
+    /// m.
+    #[inline(always)]
+    fn larger(&self, chord: &Chord<f64>) -> f64 {
+        if chord.power > 0.0 { chord.distance_squared } else { self.radius_squared }
+    }
+
+    #[inline(always)]
+    fn correction(&self, chord: &Chord<f64>) -> Correction {
+        Correction::new(&self.line, self.o, chord, self.radius_squared, self.larger(chord))
+    }
+}
+
+impl Precision for DVec3 {
+    #[inline(always)]
+    fn intersect<D: Derivation>(
+        sphere: &Sphere<Self>,
+        ray: &Ray<Self>,
+        range: Range<f64>,
+    ) -> Option<Hit<Self>> {
+        let setting = Setting::new(sphere, ray);
+        let line = &setting.line;
+        if let Some(chord) = setting.chord::<D>() {
+            match plain::nearest_ahead(&chord, setting.radius_squared, halves::CLEAR) {
+                Nearest::Miss => return None,
+                Nearest::Root { t, half_chord } => {
+                    if let Some(corrected) = setting.correction(&chord).correct(t, half_chord) {
+                        let t = corrected.t;
+                        // Below the range, the other root may be in it.
+                        if t >= range.start {
+                            return (t < range.end).then(|| {
+                                hit(line, t, corrected.point, corrected.offset / line.radius)
+                            });
+                        }
+                    }
+                }
+                Nearest::Doubt => {}
+            }
+        }
+        let found = nearest_carefully(line, Format::F64, range)?;
+        Some(hit(line, found.t, found.point, found.normal))
+    }
+
+    #[inline(always)]
+    fn roots<D: Derivation>(sphere: &Sphere<Self>, ray: &Ray<Self>) -> Option<[f64; 2]> {
+        let setting = Setting::new(sphere, ray);
+        if let Some(chord) = setting.chord::<D>() {
+            match plain::both(&chord, setting.radius_squared, halves::CLEAR) {
+                Both::Miss => return None,
+                Both::Roots { t: [near, far], half_chord } => {
+                    let correction = setting.correction(&chord);
+                    let near = correction.correct(near, half_chord);
+                    let far = correction.correct(far, half_chord);
+                    if let (Some(near), Some(far)) = (near, far) {
+                        return Some([near.t, far.t]);
+                    }
+                }
+                Both::Doubt => {}
+            }
+        }
+        both_carefully(&setting.line, Format::F64)
+    }
+}
+
+/// The hit.
+#[inline(always)]
+fn hit(line: &Line, t: f64, point: DVec3, normal: DVec3) -> Hit<DVec3> {
+    Hit { t, point, normal, clearance: clearance(point, t, line) }
+}
+
+/// How far along the normal a spawned ray starts.
+///
+/// As for `f32`, where the point may be off by the smaller of 2⁻⁶⁰ of the distance travelled and 2⁻⁵³ of the radius.
+#[inline(always)]
+fn clearance(point: DVec3, t: f64, line: &Line) -> f64 {
+    const FOUR_ULPS: f64 = 4.0 * f64::EPSILON;
+    const OF_DISTANCE: f64 = f64::EPSILON / 64.0;
+    const OF_RADIUS: f64 = f64::EPSILON;
+    const FOUR_LEAST: f64 = f64::from_bits(4);
+    // Not `f64::max`, which takes care of NaN: here there is none.
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let smaller = |a: f64, b: f64| if a < b { a } else { b };
+    let largest = |v: DVec3| larger(larger(v.x.abs(), v.y.abs()), v.z.abs());
+    let travelled = t * largest(line.direction);
+    let off = smaller(travelled * OF_DISTANCE, line.radius * OF_RADIUS);
+    largest(point) * FOUR_ULPS + (off + FOUR_LEAST)
+}

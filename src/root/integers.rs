@@ -1,0 +1,130 @@
+//! The geometric derivation in integers: exact, and so never in doubt.
+//!
+//! Where the digits of the coordinates span no more than 61 binary places, as they do unless by design, a coordinate is an
+//! `i64` and 256 bits hold the discriminant ([`Narrow`]). Otherwise a sum of products is collected in an accumulator that holds
+//! any ([`Sums`]).
+
+mod narrow;
+mod sums;
+
+use core::cmp::Ordering;
+
+use glam::DVec3;
+use narrow::Narrow;
+use sums::Sums;
+
+use super::crossing::{Crossings, Found, Line, Side, Verdict};
+use super::format::{Format, Midpoint};
+use super::pairs::{Crossing, Root};
+use crate::arithmetic::number::Triple;
+use crate::arithmetic::pair::V;
+use crate::arithmetic::scaling::{exponent, scale};
+use crate::arithmetic::wide::Wide;
+
+/// Of a root, in itself: of a quotient of numbers, or of their sums without cancellation, each known to 2⁻⁹⁶.
+const ROOT_ERROR: f64 = 4096.0 * V;
+
+/// The chord, exact but for the rounding of each number to at least 96 bits.
+struct Chord {
+    a: Wide,
+    h: Wide,
+    /// o·o - r².
+    power: Wide,
+    /// r² a - |o × d|².
+    discriminant: Wide,
+    /// o × d.
+    moment: [Wide; 3],
+}
+
+/// The chord, and what it belongs to.
+pub(super) struct InIntegers<'a> {
+    line: &'a Line,
+    format: Format,
+    chord: Chord,
+    half_chord: Wide,
+}
+
+/// Takes the chord of a valid line. It is never in doubt.
+pub(super) fn chord(line: &Line, format: Format) -> Verdict<InIntegers<'_>> {
+    let chord = match Narrow::new(line) {
+        Some(narrow) => narrow.chord(),
+        None => Sums::new(line).chord(),
+    };
+    if chord.discriminant.is_negative() {
+        return Verdict::Miss;
+    }
+    let half_chord = chord.discriminant.sqrt();
+    Verdict::Hit(InIntegers { line, format, chord, half_chord })
+}
+
+/// How the root on that side compares with a number midway between two floats.
+pub(super) fn compare_root(line: &Line, side: Side, number: Midpoint) -> Ordering {
+    let signs = Narrow::new(line).and_then(|narrow| narrow.signs_at(number));
+    let (quadratic, ahead) = signs.unwrap_or_else(|| Sums::new(line).signs_at(number));
+    match (side, quadratic) {
+        // Outside the chord, the number lies before both roots or behind both.
+        (_, Ordering::Greater) => ahead,
+        // At a root: at the near one where the closest approach is still ahead, at the far one where it is past.
+        (Side::Near, Ordering::Equal) if ahead.is_ge() => Ordering::Equal,
+        (Side::Far, Ordering::Equal) if ahead.is_le() => Ordering::Equal,
+        // Within the chord.
+        (Side::Near, _) => Ordering::Less,
+        (Side::Far, _) => Ordering::Greater,
+    }
+}
+
+impl InIntegers<'_> {
+    fn estimate(&self, side: Side) -> Wide {
+        let Chord { a, h, power, .. } = self.chord;
+        if self.half_chord.is_zero() {
+            return h / a;
+        }
+        // The root that does not cancel, and the other one from the product of the roots, power / a.
+        let sum = if h.is_negative() { h + -self.half_chord } else { h + self.half_chord };
+        if (side == Side::Near) == h.is_negative() { sum / a } else { power / sum }
+    }
+}
+
+impl Crossings for InIntegers<'_> {
+    fn root(&self, side: Side) -> Option<f64> {
+        /// Where a pair loses nothing.
+        const MIDDLE: i32 = 900;
+        let t = self.estimate(side);
+        if t.is_zero() {
+            return Some(0.0);
+        }
+        let compare = |number| compare_root(self.line, side, number);
+        if t.exponent().abs() < MIDDLE {
+            return self.format.round(t.scaled(0), ROOT_ERROR, compare);
+        }
+        Some(self.format.round_at_the_ends(t.to_f64(), compare))
+    }
+
+    fn hit(&self, side: Side, t: f64) -> Option<Found> {
+        let &Line { direction, center, radius, .. } = self.line;
+        let direction_exponent = exponent(direction.abs().max_element());
+        let d = Triple::from(direction).map(|d| scale(d, -direction_exponent));
+        if radius == 0.0 {
+            // There is no normal: back along the ray.
+            return Some(Found { t, point: center, normal: -DVec3::from(d).normalize() });
+        }
+        // In units of the radius and of the direction's length, which bound half the chord and the moment.
+        let length_exponent = exponent(radius);
+        let unit = -(length_exponent + direction_exponent);
+        let [x, y, z] = self.chord.moment.map(|coordinate| coordinate.scaled(unit));
+        let crossing = Crossing {
+            d,
+            radius: scale(radius, -length_exponent),
+            length_exponent,
+            a: self.chord.a.scaled(-2 * direction_exponent),
+            moment: Triple { x, y, z },
+            half_chord: self.half_chord.scaled(unit),
+            offset_error: 0.0,
+        };
+        let root = Root {
+            t: self.estimate(side).scaled(direction_exponent - length_exponent),
+            relative_error: ROOT_ERROR,
+        };
+        crossing.hit(self.line, self.format, side, root, t)
+    }
+}

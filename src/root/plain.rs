@@ -1,0 +1,134 @@
+//! The first step: the roots in plain `f64`, with one bound for all cases.
+//!
+//! With u = 2⁻⁵³, m the larger of o·o and r², and each of o = c - p rounded once, to first order:
+//!
+//! ```text
+//! a             a product, 2 additions                       |error| ≤  3 u a
+//! h             o, a product, 2 additions                    |error| ≤  4 u |o| |d|
+//! o·o           o twice, a product, 2 additions              |error| ≤  5 u o·o
+//! power         o·o: 5 u m;  r²: u m;  difference: u m       |error| ≤  7 u m
+//! discriminant  by the quadratic:
+//!               h²: 8 u |h| |o| |d| + u h² ≤ 9 u a m;  a power: 7 u a m and 3 u + u of it ≤ 11 u a m;  difference: u a m
+//!                                                            |error| ≤ 21 u a m
+//!               by the closest approach:
+//!               r² a: 5 u a m;  |o × d|²: 11 u a m, as |error of o × d| ≤ 2√2 u |o| |d| + u |o × d|;  difference: u a m
+//!                                                            |error| ≤ 17 u a m
+//! ```
+//!
+//! What is left out are squares of errors, 2⁻⁴⁴ of the bounds, which are far from reached: the roundings of o, of d·d and of o·o
+//! enter h² and a power alike, and cancel in the difference.
+//!
+//! **The roots.** Let s = √discriminant and t the root ahead. It is accepted where
+//!
+//! ```text
+//! s |t| > clear m
+//! ```
+//!
+//! for some part `clear` below 2⁻⁷. Outside, t = power / (h + s) with s ≤ h, so that power ≥ 2 clear m, and
+//! s (h + s) > clear m (h + s)² / power ≥ clear a m, because (h + s)(h - s) = a power. Inside and behind the center,
+//! t = power / (h - s), so that |power| > clear m, and s (|h| + s) > clear a m likewise. Inside and before the center,
+//! t = (h + s) / a, and s (h + s) > clear a m. In each case the root errs, as a part of itself, by what comes from
+//!
+//! ```text
+//! the power         7 u m / |power|                                ≤  7 u / clear
+//! the discriminant  21 u a m / 2 s, in a sum of |h| + s            ≤ 10.5 u / clear
+//! h                 4 u √(a m), in a sum above √(clear a m)        ≤  4 u / √clear
+//! a, and the roundings of s, of the sum and of the quotient        ≤  6 u
+//! ```
+
+use super::chord::Chord;
+use crate::arithmetic::pair::U;
+use crate::float::sqrt;
+
+/// Of the discriminant, in a m.
+pub(super) const DISCRIMINANT_ERROR: f64 = 21.0 * U;
+
+/// Of the power, in m.
+const POWER_ERROR: f64 = 7.0 * U;
+
+/// Below minus this part of a m, the discriminant is certain to be negative.
+const SURE_MISS: f64 = DISCRIMINANT_ERROR + U;
+
+/// Beyond this part of m, the sign of the power is certain.
+const SURE_SIGN: f64 = POWER_ERROR + U;
+
+/// The relative error of an accepted root, times `clear`: 7 u and 10.5 u, and half a u for the rest.
+pub(super) const ROOT_ERROR: f64 = POWER_ERROR + DISCRIMINANT_ERROR / 2.0 + U / 2.0;
+
+/// The nearest root ahead.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Nearest {
+    /// There is none.
+    Miss,
+    /// This one, with a relative error of at most [`ROOT_ERROR`] over `clear`.
+    Root {
+        t: f64,
+        /// √discriminant where the ray enters there, -√discriminant where it leaves.
+        half_chord: f64,
+    },
+    /// The next step has to look.
+    Doubt,
+}
+
+/// Finds the nearest root ahead, t > 0, of a chord in plain `f64`.
+///
+/// A NaN or an infinity anywhere ends in doubt: none of the comparisons holds then. So does a zero direction. A negative
+/// radius, given as a negative square, is a miss or ends in doubt.
+#[inline(always)]
+pub(super) fn nearest_ahead(chord: &Chord<f64>, radius_squared: f64, clear: f64) -> Nearest {
+    let Chord { a, h, distance_squared, power, discriminant } = *chord;
+    if power > SURE_SIGN * distance_squared {
+        // Outside: both roots lie on the side of the closest approach. If h is above zero in truth, then by less than its error,
+        // h² < 16 u² a o·o, far below a power > u a o·o, and the line misses.
+        if h <= 0.0 || discriminant < -SURE_MISS * (a * distance_squared) {
+            return Nearest::Miss;
+        }
+        // The nearer root, (h - s) / a, without its cancellation: the product of the roots is power / a.
+        let half_chord = sqrt(discriminant);
+        let t = power / (h + half_chord);
+        if half_chord * t > clear * distance_squared {
+            return Nearest::Root { t, half_chord };
+        }
+    } else if power < -SURE_SIGN * radius_squared {
+        // Inside: one root lies ahead, (h + s) / a, and it cancels where the center is behind.
+        let half_chord = sqrt(discriminant);
+        let t = if h > 0.0 { (h + half_chord) / a } else { power / (h - half_chord) };
+        if half_chord * t > clear * radius_squared {
+            return Nearest::Root { t, half_chord: -half_chord };
+        }
+    }
+    Nearest::Doubt
+}
+
+/// Both roots.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Both {
+    /// The line misses.
+    Miss,
+    /// These, ascending, with a relative error of at most [`ROOT_ERROR`] over `clear`.
+    Roots {
+        t: [f64; 2],
+        /// √discriminant.
+        half_chord: f64,
+    },
+    /// The next step has to look.
+    Doubt,
+}
+
+/// Finds both roots of a chord in plain `f64`. What [`nearest_ahead`] says of odd arguments holds here too.
+#[inline(always)]
+pub(super) fn both(chord: &Chord<f64>, radius_squared: f64, clear: f64) -> Both {
+    let Chord { a, h, distance_squared, power, discriminant } = *chord;
+    let larger = if power > 0.0 { distance_squared } else { radius_squared };
+    if discriminant < -SURE_MISS * (a * larger) {
+        return Both::Miss;
+    }
+    // The root that does not cancel, and the smaller one from the product of the roots.
+    let half_chord = sqrt(discriminant);
+    let sum = h.abs() + half_chord;
+    let (x, y) = (sum / a, power / sum);
+    if half_chord * y.abs() > clear * larger {
+        return Both::Roots { t: if h > 0.0 { [y, x] } else { [-x, -y] }, half_chord };
+    }
+    Both::Doubt
+}
