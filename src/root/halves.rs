@@ -96,7 +96,7 @@ impl Correction {
     /// With o rounded, and m as `larger`.
     #[inline(always)]
     pub(super) fn new(
-        line: &Line,
+        line: Line,
         o: DVec3,
         chord: &Chord<f64>,
         radius_squared: f64,

@@ -60,7 +60,7 @@ impl Setting {
     /// 8 u (2 r² + r |o|), over itself: together less than 2⁻³⁴ r.
     #[inline(always)]
     fn hit(&self, a: f64, distance_squared: f64, t: f64, rounded: f32, half_chord: f64) -> Hit {
-        let Self { ref line, o, radius_squared } = *self;
+        let Self { line, o, radius_squared } = *self;
         let step = line.direction * t;
         let (point, offset) = if distance_squared <= NEAR * radius_squared {
             (line.origin + step, step - o)
@@ -99,8 +99,8 @@ impl Precision for Vec3 {
             }
             Nearest::Doubt => {}
         }
-        let line = &setting.line;
-        let found = nearest_carefully(line, Format::F32, range.start.into()..range.end.into())?;
+        let line = setting.line;
+        let found = nearest_carefully(&Line::new(sphere, ray), Format::F32, range.start.into()..range.end.into())?;
         Some(hit(line, found.t as f32, found.point, found.normal))
     }
 
@@ -120,13 +120,13 @@ impl Precision for Vec3 {
             }
             _ => {}
         }
-        both_carefully(&setting.line, Format::F32).map(|roots| roots.map(|root| root as f32))
+        both_carefully(&Line::new(sphere, ray), Format::F32).map(|roots| roots.map(|root| root as f32))
     }
 }
 
 /// The hit of which everything is known in `f64`.
 #[inline(always)]
-fn hit(line: &Line, t: f32, point: DVec3, normal: DVec3) -> Hit {
+fn hit(line: Line, t: f32, point: DVec3, normal: DVec3) -> Hit {
     let point = point.as_vec3();
     let clearance = clearance(point, t, line);
     Hit { t, point, normal: normal.as_vec3(), clearance }
@@ -141,7 +141,7 @@ fn hit(line: &Line, t: f32, point: DVec3, normal: DVec3) -> Hit {
 /// no smaller than the smallest numbers, there are 4 of these.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "there is room for rounding")]
-fn clearance(point: Vec3, t: f32, line: &Line) -> f32 {
+fn clearance(point: Vec3, t: f32, line: Line) -> f32 {
     const FOUR_ULPS: f32 = 4.0 * f32::EPSILON;
     const OF_DISTANCE: f32 = f32::EPSILON / 64.0;
     const OF_RADIUS: f32 = f32::EPSILON / 2.0;

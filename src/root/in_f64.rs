@@ -58,7 +58,7 @@ impl Setting {
 
     #[inline(always)]
     fn correction(&self, chord: &Chord<f64>) -> Correction {
-        Correction::new(&self.line, self.o, chord, self.radius_squared, self.larger(chord))
+        Correction::new(self.line, self.o, chord, self.radius_squared, self.larger(chord))
     }
 }
 
@@ -70,7 +70,7 @@ impl Precision for DVec3 {
         range: Range<f64>,
     ) -> Option<Hit<Self>> {
         let setting = Setting::new(sphere, ray);
-        let line = &setting.line;
+        let line = setting.line;
         if let Some(chord) = setting.chord::<D>() {
             match plain::nearest_ahead(&chord, setting.radius_squared, halves::CLEAR) {
                 Nearest::Miss => return None,
@@ -88,7 +88,7 @@ impl Precision for DVec3 {
                 Nearest::Doubt => {}
             }
         }
-        let found = nearest_carefully(line, Format::F64, range)?;
+        let found = nearest_carefully(&Line::new(sphere, ray), Format::F64, range)?;
         Some(hit(line, found.t, found.point, found.normal))
     }
 
@@ -109,13 +109,13 @@ impl Precision for DVec3 {
                 Both::Doubt => {}
             }
         }
-        both_carefully(&setting.line, Format::F64)
+        both_carefully(&Line::new(sphere, ray), Format::F64)
     }
 }
 
 /// The hit.
 #[inline(always)]
-fn hit(line: &Line, t: f64, point: DVec3, normal: DVec3) -> Hit<DVec3> {
+fn hit(line: Line, t: f64, point: DVec3, normal: DVec3) -> Hit<DVec3> {
     Hit { t, point, normal, clearance: clearance(point, t, line) }
 }
 
@@ -123,7 +123,7 @@ fn hit(line: &Line, t: f64, point: DVec3, normal: DVec3) -> Hit<DVec3> {
 ///
 /// As for `f32`, where the point may be off by the smaller of 2⁻⁶⁰ of the distance travelled and 2⁻⁵³ of the radius.
 #[inline(always)]
-fn clearance(point: DVec3, t: f64, line: &Line) -> f64 {
+fn clearance(point: DVec3, t: f64, line: Line) -> f64 {
     const FOUR_ULPS: f64 = 4.0 * f64::EPSILON;
     const OF_DISTANCE: f64 = f64::EPSILON / 64.0;
     const OF_RADIUS: f64 = f64::EPSILON;
