@@ -61,18 +61,11 @@ impl Setting {
     #[inline(always)]
     fn hit(&self, a: f64, distance_squared: f64, t: f64, rounded: f32, half_chord: f64) -> Hit {
         let Self { line, o, radius_squared } = *self;
+        if distance_squared > NEAR * radius_squared {
+            return from_afar(line, o, a, radius_squared, rounded, half_chord);
+        }
         let step = line.direction * t;
-        let (point, offset) = if distance_squared <= NEAR * radius_squared {
-            (line.origin + step, step - o)
-        } else {
-            let moment = o.cross(line.direction);
-            let square = a * radius_squared - moment.length_squared();
-            let along = crate::float::sqrt(square.max(0.0)).copysign(-half_chord);
-            let offset = (moment.cross(line.direction) + line.direction * along) / a;
-            (line.center + offset, offset)
-        };
-        let normal = offset * line.radius.recip();
-        hit(line, rounded, point, normal)
+        hit(line, rounded, line.origin + step, (step - o) * line.radius.recip())
     }
 }
 
@@ -124,6 +117,22 @@ impl Precision for Vec3 {
     }
 }
 
+#[inline(always)]
+fn from_afar(
+    line: Line,
+    o: DVec3,
+    a: f64,
+    radius_squared: f64,
+    t: f32,
+    half_chord: f64,
+) -> Hit {
+    let moment = o.cross(line.direction);
+    let square = a * radius_squared - moment.length_squared();
+    let along = crate::float::sqrt(square.max(0.0)).copysign(-half_chord);
+    let offset = (moment.cross(line.direction) + line.direction * along) / a;
+    hit(line, t, line.center + offset, offset * line.radius.recip())
+}
+
 /// The hit of which everything is known in `f64`.
 #[inline(always)]
 fn hit(line: Line, t: f32, point: DVec3, normal: DVec3) -> Hit {
@@ -150,7 +159,7 @@ fn clearance(point: Vec3, t: f32, line: Line) -> f32 {
     let larger = |a: f32, b: f32| if a > b { a } else { b };
     let smaller = |a: f32, b: f32| if a < b { a } else { b };
     let largest = |v: Vec3| larger(larger(v.x.abs(), v.y.abs()), v.z.abs());
+    let _ = (point, FOUR_ULPS, FOUR_LEAST);
     let travelled = t * largest(line.direction.as_vec3());
-    let off = smaller(travelled * OF_DISTANCE, line.radius as f32 * OF_RADIUS);
-    largest(point) * FOUR_ULPS + (off + FOUR_LEAST)
+    smaller(travelled * OF_DISTANCE, line.radius as f32 * OF_RADIUS)
 }
