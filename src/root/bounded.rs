@@ -16,7 +16,7 @@
 //! ```
 
 use super::chord::{Chord, Derivation};
-use super::crossing::{Crossings, Found, Line, Side, Verdict};
+use super::crossing::{Crossings, Estimate, Found, Line, Root, Side, Verdict};
 use super::format::Format;
 use super::integers;
 use crate::arithmetic::number::Triple;
@@ -60,6 +60,7 @@ pub(super) struct Bounded<'a> {
 /// Takes the chord of a line whose coordinates are `f32`: then squares of squares neither overflow nor underflow.
 ///
 /// A NaN or an infinity anywhere ends in doubt, and so does a zero direction. With a negative radius, there is no hit.
+#[inline(always)]
 pub(super) fn chord(line: &Line) -> Verdict<Bounded<'_>> {
     let exact_o = line.o();
     let o = exact_o.map(|o| o.hi);
@@ -94,15 +95,9 @@ pub(super) fn chord(line: &Line) -> Verdict<Bounded<'_>> {
     })
 }
 
-/// A root in `f64`, with its relative error.
-#[derive(Clone, Copy)]
-struct Root {
-    t: f64,
-    relative_error: f64,
-}
-
 impl Bounded<'_> {
     /// o·o - r², where the origin may be close to the surface, with its relative error.
+    #[inline(always)]
     fn power(&self) -> (f64, f64) {
         let o = Triple::from(self.o);
         let radius_squared = two_product(self.line.radius, self.line.radius);
@@ -115,33 +110,40 @@ impl Bounded<'_> {
     }
 
     /// The root on that side, unless it might be of either sign.
-    fn estimate(&self, side: Side) -> Option<Root> {
+    #[inline(always)]
+    fn estimate(&self, side: Side) -> Option<Estimate> {
         // The root that does not cancel, and the other one from the product of the roots, power / a.
         let sum = if self.h < 0.0 { self.h - self.half_chord } else { self.h + self.half_chord };
         // Doubled for the terms of second order.
         let sum_error =
             2.0 * (H_ERROR * self.reach + self.half_chord_error) / sum.abs() + QUOTIENT_ERROR;
         if (side == Side::Near) == (self.h < 0.0) {
-            return Some(Root { t: sum / self.a, relative_error: sum_error });
+            return Some(Estimate { t: (sum / self.a).into(), relative_error: sum_error });
         }
         let (power, power_error) = self.power();
         (power_error < 0.5)
-            .then(|| Root { t: power / sum, relative_error: sum_error + 2.0 * power_error })
+            .then(|| Estimate {
+                t: (power / sum).into(),
+                relative_error: sum_error + 2.0 * power_error,
+            })
     }
 }
 
 impl Crossings for Bounded<'_> {
-    fn root(&self, side: Side) -> Option<f64> {
-        let Root { t, relative_error } = self.estimate(side)?;
-        Format::F32.round(Pair::from(t), relative_error, |midpoint| {
+    #[inline(always)]
+    fn root(&self, side: Side) -> Option<Root> {
+        let estimate = self.estimate(side)?;
+        let t = Format::F32.round(estimate.t, estimate.relative_error, |midpoint| {
             integers::compare_root(self.line, side, midpoint)
-        })
+        })?;
+        Some(Root { t, estimate })
     }
 
-    fn hit(&self, side: Side, t: f64) -> Option<Found> {
+    #[inline(always)]
+    fn hit(&self, side: Side, root: Root) -> Option<Found> {
         let tolerance = Format::F32.point_tolerance();
         let &Line { origin, direction, center, radius } = self.line;
-        let Root { t: unrounded, relative_error } = self.estimate(side)?;
+        let Root { t, estimate: Estimate { t: Pair { hi: unrounded, .. }, relative_error } } = root;
 
         // From the foot of the closest approach, at (o × d) × d / a from the center, half a chord to either side.
         let along = if side == Side::Near { -self.half_chord } else { self.half_chord };

@@ -83,30 +83,64 @@ pub(crate) struct Found {
     pub(crate) normal: DVec3,
 }
 
+/// A root as a step knows it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Root {
+    /// Correctly rounded.
+    pub(crate) t: f64,
+    /// Not rounded, in the step's own units.
+    pub(crate) estimate: Estimate,
+}
+
+/// A root, with its relative error.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Estimate {
+    pub(crate) t: Pair,
+    pub(crate) relative_error: f64,
+}
+
 /// The two crossings, as a step knows them.
 pub(crate) trait Crossings {
-    /// The root, correctly rounded, if this step can tell it.
-    fn root(&self, side: Side) -> Option<f64>;
+    /// The root, if this step can tell it.
+    fn root(&self, side: Side) -> Option<Root>;
 
     /// The hit at that root, if this step can tell it within the tolerance of the format.
-    fn hit(&self, side: Side, t: f64) -> Option<Found>;
+    fn hit(&self, side: Side, root: Root) -> Option<Found>;
 }
 
-/// The first crossing with a finite t > 0 in the range.
-pub(crate) fn nearest(crossings: &dyn Crossings, range: &Range<f64>) -> Verdict<Found> {
-    for side in [Side::Near, Side::Far] {
-        let Some(t) = crossings.root(side) else { return Verdict::Doubt };
-        if t > 0.0 && t < f64::INFINITY && range.contains(&t) {
-            return crossings.hit(side, t).map_or(Verdict::Doubt, Verdict::Hit);
+/// What is asked of the crossings.
+#[derive(Clone, Debug)]
+pub(crate) enum Question {
+    /// The first crossing with a finite t > 0 in the range.
+    Nearest(Range<f64>),
+    /// Both roots.
+    Both,
+}
+
+/// The answer to each question.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Answer {
+    Nearest(Found),
+    /// Ascending.
+    Both([f64; 2]),
+}
+
+impl Question {
+    #[inline(always)]
+    pub(crate) fn ask(&self, crossings: &impl Crossings) -> Verdict<Answer> {
+        let mut roots = [0.0; 2];
+        for (side, t) in [Side::Near, Side::Far].into_iter().zip(&mut roots) {
+            let Some(root) = crossings.root(side) else { return Verdict::Doubt };
+            *t = root.t;
+            let Self::Nearest(range) = self else { continue };
+            if root.t > 0.0 && root.t < f64::INFINITY && range.contains(&root.t) {
+                let found = crossings.hit(side, root);
+                return found.map_or(Verdict::Doubt, |found| Verdict::Hit(Answer::Nearest(found)));
+            }
         }
-    }
-    Verdict::Miss
-}
-
-/// Both roots, ascending.
-pub(crate) fn both(crossings: &dyn Crossings) -> Verdict<[f64; 2]> {
-    match (crossings.root(Side::Near), crossings.root(Side::Far)) {
-        (Some(near), Some(far)) => Verdict::Hit([near, far]),
-        _ => Verdict::Doubt,
+        match self {
+            Self::Nearest(_) => Verdict::Miss,
+            Self::Both => Verdict::Hit(Answer::Both(roots)),
+        }
     }
 }

@@ -13,9 +13,9 @@ use glam::DVec3;
 use narrow::Narrow;
 use sums::Sums;
 
-use super::crossing::{Crossings, Found, Line, Side, Verdict};
+use super::crossing::{Crossings, Estimate, Found, Line, Root, Side, Verdict};
 use super::format::{Format, Midpoint};
-use super::pairs::{Crossing, Root};
+use super::pairs::Crossing;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::V;
 use crate::arithmetic::scaling::{exponent, scale};
@@ -86,27 +86,31 @@ impl InIntegers<'_> {
 }
 
 impl Crossings for InIntegers<'_> {
-    fn root(&self, side: Side) -> Option<f64> {
+    fn root(&self, side: Side) -> Option<Root> {
         /// Where a pair loses nothing.
         const MIDDLE: i32 = 900;
-        let t = self.estimate(side);
-        if t.is_zero() {
-            return Some(0.0);
-        }
+        let exact = self.estimate(side);
         let compare = |number| compare_root(self.line, side, number);
-        if t.exponent().abs() < MIDDLE {
-            return self.format.round(t.scaled(0), ROOT_ERROR, compare);
-        }
-        Some(self.format.round_at_the_ends(t.to_f64(), compare))
+        let t = if exact.is_zero() {
+            0.0
+        } else if exact.exponent().abs() < MIDDLE {
+            self.format.round(exact.scaled(0), ROOT_ERROR, compare)?
+        } else {
+            self.format.round_at_the_ends(exact.to_f64(), compare)
+        };
+        // In units of the radius and of the direction's length, as the hit wants it.
+        let unit = direction_exponent(self.line) - exponent(self.line.radius);
+        let estimate = Estimate { t: exact.scaled(unit), relative_error: ROOT_ERROR };
+        Some(Root { t, estimate })
     }
 
-    fn hit(&self, side: Side, t: f64) -> Option<Found> {
+    fn hit(&self, side: Side, root: Root) -> Option<Found> {
         let &Line { direction, center, radius, .. } = self.line;
-        let direction_exponent = exponent(direction.abs().max_element());
+        let direction_exponent = direction_exponent(self.line);
         let d = Triple::from(direction).map(|d| scale(d, -direction_exponent));
         if radius == 0.0 {
             // There is no normal: back along the ray.
-            return Some(Found { t, point: center, normal: -DVec3::from(d).normalize() });
+            return Some(Found { t: root.t, point: center, normal: -DVec3::from(d).normalize() });
         }
         // In units of the radius and of the direction's length, which bound half the chord and the moment.
         let length_exponent = exponent(radius);
@@ -121,10 +125,10 @@ impl Crossings for InIntegers<'_> {
             half_chord: self.half_chord.scaled(unit),
             offset_error: 0.0,
         };
-        let root = Root {
-            t: self.estimate(side).scaled(direction_exponent - length_exponent),
-            relative_error: ROOT_ERROR,
-        };
-        crossing.hit(self.line, self.format, side, root, t)
+        crossing.hit(self.line, self.format, side, root)
     }
+}
+
+fn direction_exponent(line: &Line) -> i32 {
+    exponent(line.direction.abs().max_element())
 }

@@ -16,32 +16,33 @@ pub(crate) mod precision;
 
 use core::ops::Range;
 
-use crossing::{Crossings, Found, Line, Verdict, both, nearest};
+use crossing::{Answer, Found, Line, Question, Verdict};
 use format::Format;
 
 /// Finds the nearest hit, where the plain steps leave a doubt.
 #[cold]
 #[inline(never)]
 fn nearest_carefully(line: &Line, format: Format, range: Range<f64>) -> Option<Found> {
-    carefully(line, format, |crossings| nearest(crossings, &range))
+    match carefully(line, format, &Question::Nearest(range)) {
+        Some(Answer::Nearest(found)) => Some(found),
+        _ => None,
+    }
 }
 
 /// Finds both roots, ascending, where the plain steps leave a doubt.
 #[cold]
 #[inline(never)]
 fn both_carefully(line: &Line, format: Format) -> Option<[f64; 2]> {
-    carefully(line, format, both)
+    match carefully(line, format, &Question::Both) {
+        Some(Answer::Both(roots)) => Some(roots),
+        _ => None,
+    }
 }
 
-/// Takes each step after the plain ones in turn, until one is certain of what is asked of its crossings.
-#[inline(always)]
-fn carefully<T>(
-    line: &Line,
-    format: Format,
-    ask: impl Fn(&dyn Crossings) -> Verdict<T>,
-) -> Option<T> {
+/// Takes each step after the plain ones in turn, until one is certain of the answer.
+fn carefully(line: &Line, format: Format, question: &Question) -> Option<Answer> {
     if format == Format::F32 {
-        match bounded::chord(line).and_then(|chord| ask(&chord)) {
+        match bounded::chord(line).and_then(|chord| question.ask(&chord)) {
             Verdict::Miss => return None,
             Verdict::Hit(answer) => return Some(answer),
             Verdict::Doubt => {}
@@ -50,12 +51,19 @@ fn carefully<T>(
     if !line.is_valid() {
         return None;
     }
-    match pairs::chord(line, format).and_then(|chord| ask(&chord)) {
+    match pairs::chord(line, format).and_then(|chord| question.ask(&chord)) {
         Verdict::Miss => return None,
         Verdict::Hit(answer) => return Some(answer),
         Verdict::Doubt => {}
     }
-    match integers::chord(line, format).and_then(|chord| ask(&chord)) {
+    exactly(line, format, question)
+}
+
+/// Takes the step that is never in doubt.
+#[cold]
+#[inline(never)]
+fn exactly(line: &Line, format: Format, question: &Question) -> Option<Answer> {
+    match integers::chord(line, format).and_then(|chord| question.ask(&chord)) {
         Verdict::Hit(answer) => Some(answer),
         Verdict::Miss | Verdict::Doubt => None,
     }

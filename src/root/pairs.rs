@@ -18,7 +18,7 @@
 
 use glam::DVec3;
 
-use super::crossing::{Crossings, Found, Line, Side, Verdict};
+use super::crossing::{Crossings, Estimate, Found, Line, Root, Side, Verdict};
 use super::format::Format;
 use super::integers;
 use crate::arithmetic::number::Triple;
@@ -51,6 +51,7 @@ pub(super) struct Scaled {
 
 impl Scaled {
     /// `None` where the difference of the positions is no pair, or all lengths are zero.
+    #[inline(always)]
     pub(super) fn new(line: &Line) -> Option<Self> {
         /// Fourth powers of what lies within this of 1 neither overflow nor lose anything in a pair.
         const NEAR: i32 = 200;
@@ -79,6 +80,7 @@ impl Scaled {
     }
 
     /// A root in units of the caller's, if that is exact.
+    #[inline(always)]
     pub(super) fn unscaled_root(&self, t: Pair) -> Option<Pair> {
         let e = self.length_exponent - self.direction_exponent;
         if e == 0 {
@@ -116,6 +118,7 @@ pub(super) struct InPairs<'a> {
 }
 
 /// o × d.
+#[inline(always)]
 pub(super) fn moment(o: Triple<Pair>, d: Triple<f64>) -> Triple<Pair> {
     let coordinate = |oj: Pair, dk: f64, ok: Pair, dj: f64| {
         let (x, y) = (two_product(oj.hi, dk), two_product(ok.hi, dj));
@@ -131,6 +134,7 @@ pub(super) fn moment(o: Triple<Pair>, d: Triple<f64>) -> Triple<Pair> {
 }
 
 /// The square of a vector's length.
+#[inline(always)]
 fn square(vector: Triple<Pair>) -> Pair {
     let [x, y, z] = [vector.x, vector.y, vector.z].map(|coordinate| {
         let square = two_product(coordinate.hi, coordinate.hi);
@@ -142,6 +146,7 @@ fn square(vector: Triple<Pair>) -> Pair {
 }
 
 /// Takes the chord of a valid line.
+#[inline(always)]
 pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
     let Some(scaled) = Scaled::new(line) else { return Verdict::Doubt };
     let Scaled { o, d, radius, .. } = scaled;
@@ -184,16 +189,10 @@ pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
     })
 }
 
-/// A root in scaled units, with its relative error.
-#[derive(Clone, Copy)]
-pub(super) struct Root {
-    pub(super) t: Pair,
-    pub(super) relative_error: f64,
-}
-
 impl InPairs<'_> {
     /// The root on that side, unless it might be of either sign.
-    pub(super) fn estimate(&self, side: Side) -> Option<Root> {
+    #[inline(always)]
+    pub(super) fn estimate(&self, side: Side) -> Option<Estimate> {
         let Self { a, h, half_chord, .. } = *self;
         let [sum, other] = match side {
             Side::Near => [h - half_chord, h + half_chord],
@@ -204,12 +203,12 @@ impl InPairs<'_> {
         // The errors of quotients are doubled for their terms of second order.
         if sum.hi.abs() > 0.5 * h.hi.abs() {
             let relative_error = 2.0 * (error / sum.hi.abs()) + ROOT_QUOTIENT_ERROR;
-            return Some(Root { t: sum / a, relative_error });
+            return Some(Estimate { t: sum / a, relative_error });
         }
         // That sum cancels; the product of the roots is power / a.
         let (power, power_error) = self.scaled.power();
         let power_relative_error = power_error / power.hi.abs();
-        (power_relative_error < 0.5).then(|| Root {
+        (power_relative_error < 0.5).then(|| Estimate {
             t: power / other,
             relative_error: 2.0 * (error / other.hi.abs() + power_relative_error)
                 + ROOT_QUOTIENT_ERROR,
@@ -218,20 +217,23 @@ impl InPairs<'_> {
 }
 
 impl Crossings for InPairs<'_> {
-    fn root(&self, side: Side) -> Option<f64> {
-        let Root { t, relative_error } = self.estimate(side)?;
-        self.format.round(self.scaled.unscaled_root(t)?, relative_error, |midpoint| {
+    #[inline(always)]
+    fn root(&self, side: Side) -> Option<Root> {
+        let estimate = self.estimate(side)?;
+        let unscaled = self.scaled.unscaled_root(estimate.t)?;
+        let t = self.format.round(unscaled, estimate.relative_error, |midpoint| {
             integers::compare_root(self.line, side, midpoint)
-        })
+        })?;
+        Some(Root { t, estimate })
     }
 
-    fn hit(&self, side: Side, t: f64) -> Option<Found> {
-        let root = self.estimate(side)?;
+    #[inline(always)]
+    fn hit(&self, side: Side, root: Root) -> Option<Found> {
         let offset_error = MOMENT_ERROR * self.reach + self.half_chord_error;
         let Scaled { d, radius, length_exponent, .. } = self.scaled;
         let Self { a, moment, half_chord, .. } = *self;
         let crossing = Crossing { d, radius, length_exponent, a, moment, half_chord, offset_error };
-        crossing.hit(self.line, self.format, side, root, t)
+        crossing.hit(self.line, self.format, side, root)
     }
 }
 
@@ -301,17 +303,18 @@ pub(super) struct Crossing {
 
 impl Crossing {
     /// The hit at a root, if its point is within half the tolerance.
+    #[inline(always)]
     pub(super) fn hit(
         &self,
         line: &Line,
         format: Format,
         side: Side,
         root: Root,
-        t: f64,
     ) -> Option<Found> {
+        let Root { t, estimate } = root;
         let Self { d, radius, length_exponent, .. } = *self;
         let length = sqrt(self.a.hi);
-        let travelled = root.t.hi.abs() * length;
+        let travelled = estimate.t.hi.abs() * length;
         let is_close = travelled <= radius;
         let tolerance = format.point_tolerance();
         let allowed = if is_close {
@@ -320,7 +323,7 @@ impl Crossing {
             (tolerance.of_radius * radius).min(tolerance.of_distance * travelled)
         };
         let is_certain = self.offset_error <= 0.5 * allowed * length
-            && (!is_close || root.relative_error < 0.5 * tolerance.of_distance);
+            && (!is_close || estimate.relative_error < 0.5 * tolerance.of_distance);
         if !is_certain {
             return None;
         }
@@ -334,7 +337,7 @@ impl Crossing {
         let foot = moment(self.moment, d);
         let offset = foot.zip(d, |foot, d| (foot + times(along, d)) / self.a);
         let (start, step) = if is_close {
-            (line.origin, d.map(|d| times(root.t, d)))
+            (line.origin, d.map(|d| times(estimate.t, d)))
         } else {
             (line.center, offset)
         };
