@@ -18,6 +18,8 @@
 use super::chord::{Chord, Derivation};
 use super::crossing::{Crossings, Estimate, Found, Line, Root, Side, Verdict};
 use super::format::Format;
+use super::halves::{self, Corrected, Correction};
+use super::in_f64::is_safe;
 use super::integers;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
@@ -41,13 +43,11 @@ const POWER_ERROR: f64 = 2.0 * COMPENSATED_DOT_ERROR;
 const QUOTIENT_ERROR: f64 = 8.0 * U;
 
 /// The chord, with its errors.
-pub(super) struct Bounded<'a> {
-    line: &'a Line,
-    o: DVec3,
-    o_low: DVec3,
-    a: f64,
-    h: f64,
-    distance_squared: f64,
+pub(super) struct Bounded {
+    line: Line,
+    format: Format,
+    o: Triple<Pair>,
+    chord: Chord<f64>,
     /// o × d.
     moment: DVec3,
     /// √discriminant.
@@ -57,107 +57,147 @@ pub(super) struct Bounded<'a> {
     reach: f64,
 }
 
-/// Takes the chord of a line whose coordinates are `f32`: then squares of squares neither overflow nor underflow.
+/// Takes the chord of a line of which no square of a square overflows or underflows.
 ///
 /// A NaN or an infinity anywhere ends in doubt, and so does a zero direction. With a negative radius, there is no hit.
 #[inline(always)]
-pub(super) fn chord(line: &Line) -> Verdict<Bounded<'_>> {
-    let exact_o = line.o();
-    let o = exact_o.map(|o| o.hi);
+pub(super) fn chord(line: Line, format: Format) -> Verdict<Bounded> {
+    let o = line.o();
+    let o_high = o.map(|o| o.hi);
     let d = Triple::from(line.direction);
-    let Chord { a, h, distance_squared, discriminant, .. } =
-        ClosestApproach::chord(o, d, line.radius * line.radius.abs());
-    let moment = o.cross(d);
+    let radius_squared = line.radius * line.radius.abs();
+    let chord = ClosestApproach::chord(o_high, d, radius_squared);
+    let Chord { a, distance_squared, discriminant, .. } = chord;
+    if format == Format::F64 && !(is_safe(a) && is_safe(distance_squared.max(radius_squared))) {
+        return Verdict::Doubt;
+    }
+    let moment = o_high.cross(d);
     let moment_squared = moment.dot(moment);
     let reach_squared = a * distance_squared;
     let error = DISCRIMINANT_ERROR
-        * (a * (line.radius * line.radius) + moment_squared + sqrt(moment_squared * reach_squared))
+        * (a * radius_squared.abs() + moment_squared + sqrt(moment_squared * reach_squared))
         + MOMENT_ERROR_SQUARED * reach_squared;
     if discriminant < -error {
         return Verdict::Miss;
     }
-    if !(discriminant > error) {
-        return Verdict::Doubt;
+    if discriminant > error {
+        // √D - √D' = (D - D') / (√D + √D'), at most the error of D over √D'.
+        let half_chord = sqrt(discriminant);
+        return Verdict::Hit(Bounded {
+            line,
+            format,
+            o,
+            chord,
+            moment: moment.into(),
+            half_chord,
+            half_chord_error: error / half_chord,
+            reach: sqrt(reach_squared),
+        });
     }
-    // √D - √D' = (D - D') / (√D + √D'), at most the error of D over √D'.
-    let half_chord = sqrt(discriminant);
-    Verdict::Hit(Bounded {
-        line,
-        o: o.into(),
-        o_low: exact_o.map(|o| o.lo).into(),
-        a,
-        h,
-        distance_squared,
-        moment: moment.into(),
-        half_chord,
-        half_chord_error: error / half_chord,
-        reach: sqrt(reach_squared),
-    })
+    Verdict::Doubt
 }
 
-impl Bounded<'_> {
+impl Bounded {
     /// o·o - r², where the origin may be close to the surface, with its relative error.
     #[inline(always)]
     fn power(&self) -> (f64, f64) {
-        let o = Triple::from(self.o);
+        let o = self.o.map(|o| o.hi);
+        let o_low = self.o.map(|o| o.lo);
         let radius_squared = two_product(self.line.radius, self.line.radius);
         let distance_squared = compensated_dot(o, o);
         let difference = two_difference(distance_squared.hi, radius_squared.hi);
-        let low = (distance_squared.lo - radius_squared.lo) + 2.0 * self.o.dot(self.o_low);
+        let low = (distance_squared.lo - radius_squared.lo) + 2.0 * o.dot(o_low);
         let power = difference.hi + (difference.lo + low);
-        let error = POWER_ERROR * self.distance_squared.max(radius_squared.hi);
+        let error = POWER_ERROR * distance_squared.hi.max(radius_squared.hi);
         (power, error / power.abs())
     }
 
     /// The root on that side, unless it might be of either sign.
     #[inline(always)]
-    fn estimate(&self, side: Side) -> Option<Estimate> {
-        // The root that does not cancel, and the other one from the product of the roots, power / a.
-        let sum = if self.h < 0.0 { self.h - self.half_chord } else { self.h + self.half_chord };
+    fn estimate(&self, side: Side) -> Option<(f64, f64)> {
+        let Self { chord: Chord { a, h, .. }, half_chord, .. } = *self;
+        let [sum, other] = match side {
+            Side::Near => [h - half_chord, h + half_chord],
+            Side::Far => [h + half_chord, h - half_chord],
+        };
         // Doubled for the terms of second order.
-        let sum_error =
-            2.0 * (H_ERROR * self.reach + self.half_chord_error) / sum.abs() + QUOTIENT_ERROR;
-        if (side == Side::Near) == (self.h < 0.0) {
-            return Some(Estimate { t: (sum / self.a).into(), relative_error: sum_error });
+        let error = 2.0 * (H_ERROR * self.reach + self.half_chord_error);
+        if sum.abs() > 0.5 * h.abs() {
+            return Some((sum / a, error / sum.abs() + QUOTIENT_ERROR));
         }
+        // That sum cancels; the product of the roots is power / a.
         let (power, power_error) = self.power();
-        (power_error < 0.5)
-            .then(|| Estimate {
-                t: (power / sum).into(),
-                relative_error: sum_error + 2.0 * power_error,
-            })
+        let relative_error = error / other.abs() + 2.0 * power_error + QUOTIENT_ERROR;
+        (power_error < 0.5).then(|| (power / other, relative_error))
+    }
+
+    /// The correction of a root, with how far off it is, as a part of the root.
+    #[inline(always)]
+    fn corrected(&self, t: f64, relative_error: f64) -> (Corrected, f64) {
+        let Self { line, chord, half_chord, .. } = *self;
+        let radius_squared = line.radius * line.radius;
+        let o = self.o.map(|o| o.hi).into();
+        let corrected = Correction::new(line, o, &chord, radius_squared).correct(t);
+        let larger = chord.distance_squared.max(radius_squared);
+        let slope_error = halves::SLOPE_ERROR * sqrt(radius_squared * chord.a) / half_chord;
+        let bend = relative_error * (chord.a * t.abs()) / half_chord;
+        let error = halves::RESIDUAL_ERROR * sqrt(radius_squared * larger) / (half_chord * t.abs())
+            + relative_error * (slope_error + bend * bend);
+        (corrected, error)
     }
 }
 
-impl Crossings for Bounded<'_> {
+impl Crossings for Bounded {
     #[inline(always)]
     fn root(&self, side: Side) -> Option<Root> {
-        let estimate = self.estimate(side)?;
-        let t = Format::F32.round(estimate.t, estimate.relative_error, |midpoint| {
-            integers::compare_root(self.line, side, midpoint)
+        let (t, relative_error) = self.estimate(side)?;
+        let estimate = if self.format == Format::F32 {
+            Estimate { t: t.into(), relative_error }
+        } else {
+            let (corrected, relative_error) = self.corrected(t, relative_error);
+            Estimate { t: corrected.t, relative_error }
+        };
+        let t = self.format.round(estimate.t, estimate.relative_error, |midpoint| {
+            let line = self.line;
+            integers::compare_root(&line, side, midpoint)
         })?;
         Some(Root { t, estimate })
     }
 
     #[inline(always)]
     fn hit(&self, side: Side, root: Root) -> Option<Found> {
-        let tolerance = Format::F32.point_tolerance();
-        let &Line { origin, direction, center, radius } = self.line;
+        let Line { origin, direction, center, radius } = self.line;
         let Root { t, estimate: Estimate { t: Pair { hi: unrounded, .. }, relative_error } } = root;
+        let length = sqrt(self.chord.a);
+        let travelled = unrounded.abs() * length;
+        let tolerance = self.format.point_tolerance();
+        if self.format == Format::F64 {
+            // The rounding of the offset is below a quarter of the tolerance.
+            let (t_plain, plain_error) = self.estimate(side)?;
+            let (corrected, _) = self.corrected(t_plain, plain_error);
+            let offset_error =
+                relative_error * travelled + halves::OFFSET_ERROR * (self.reach / length + radius);
+            let is_certain = offset_error < 0.5 * tolerance.of_radius * radius
+                && relative_error < 0.5 * tolerance.of_distance;
+            return is_certain.then(|| Found {
+                t,
+                point: corrected.point(),
+                normal: corrected.offset() / radius,
+            });
+        }
 
         // From the foot of the closest approach, at (o × d) × d / a from the center, half a chord to either side.
         let along = if side == Side::Near { -self.half_chord } else { self.half_chord };
-        let offset = (self.moment.cross(direction) + direction * along) / self.a;
+        let offset = (self.moment.cross(direction) + direction * along) / self.chord.a;
         // In lengths times |d|: its rounding is below an eighth of the tolerance.
         let offset_error = MOMENT_ERROR * self.reach + self.half_chord_error;
-        let travelled = unrounded.abs() * sqrt(self.a);
         let is_close = travelled <= radius;
         let allowed = if is_close {
             tolerance.of_radius * radius
         } else {
             (tolerance.of_radius * radius).min(tolerance.of_distance * travelled)
         };
-        let is_certain = offset_error < 0.5 * allowed * sqrt(self.a)
+        let is_certain = offset_error < 0.5 * allowed * length
             && (!is_close || relative_error < 0.5 * tolerance.of_distance);
         is_certain.then(|| Found {
             t,

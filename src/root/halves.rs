@@ -26,7 +26,7 @@ use glam::DVec3;
 
 use super::chord::Chord;
 use super::crossing::Line;
-use crate::arithmetic::pair::{U, two_sum};
+use crate::arithmetic::pair::{Pair, U, fast_two_sum, two_sum};
 
 /// The part `clear` of the first step: see there.
 pub(super) const CLEAR: f64 = 1.0 / 8192.0;
@@ -34,8 +34,17 @@ pub(super) const CLEAR: f64 = 1.0 / 8192.0;
 /// The square of the least s t, in r² m.
 const CLEAR_OF_RESIDUAL: f64 = 1.0 / 1_048_576.0;
 
+/// Of t, in r √m / s: 2⁻⁷².
+pub(super) const RESIDUAL_ERROR: f64 = U / 524_288.0;
+
+/// Of the slope w·d, in r |d|.
+pub(super) const SLOPE_ERROR: f64 = 4.0 * U;
+
+/// Of w, in √m: 2⁻⁷⁴.
+pub(super) const OFFSET_ERROR: f64 = U / 2_097_152.0;
+
 /// How far off a corrected root may be, as a part of itself: 2⁻⁶², and half of that for all else.
-pub(super) const ROOT_ERROR: f64 = U / 512.0 * 1.5;
+const ROOT_ERROR: f64 = U / 512.0 * 1.5;
 
 /// A vector as the sum of two, exactly.
 #[derive(Clone, Copy, Debug)]
@@ -65,11 +74,37 @@ fn splitter(square: f64) -> f64 {
 /// A corrected root, and where the ray is there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corrected {
-    /// Correctly rounded.
-    pub(super) t: f64,
-    pub(super) point: DVec3,
+    /// The root, normalized.
+    pub(super) t: Pair,
+    /// t d, without the correction.
+    step: DVec3,
+    step_low: DVec3,
+    w: Halves,
+    correction: DVec3,
+    origin: DVec3,
+}
+
+impl Corrected {
+    #[inline(always)]
+    pub(super) fn point(&self) -> DVec3 {
+        let coordinate = |p: f64, step: f64, low: f64| {
+            let sum = two_sum(p, step);
+            sum.hi + (sum.lo + low)
+        };
+        let Self { origin, step, .. } = *self;
+        let low = self.step_low + self.correction;
+        DVec3::new(
+            coordinate(origin.x, step.x, low.x),
+            coordinate(origin.y, step.y, low.y),
+            coordinate(origin.z, step.z, low.z),
+        )
+    }
+
     /// From the center to the point.
-    pub(super) offset: DVec3,
+    #[inline(always)]
+    pub(super) fn offset(&self) -> DVec3 {
+        self.w.high + (self.w.low + self.correction)
+    }
 }
 
 /// What the correction of either root needs.
@@ -80,8 +115,6 @@ pub(super) struct Correction {
     origin: DVec3,
     radius: Half,
     a: f64,
-    /// r² m.
-    residual_size: f64,
     radius_splitter: f64,
 }
 
@@ -93,15 +126,9 @@ struct Half {
 }
 
 impl Correction {
-    /// With o rounded, and m as `larger`.
+    /// With o rounded.
     #[inline(always)]
-    pub(super) fn new(
-        line: Line,
-        o: DVec3,
-        chord: &Chord<f64>,
-        radius_squared: f64,
-        larger: f64,
-    ) -> Self {
+    pub(super) fn new(line: Line, o: DVec3, chord: &Chord<f64>, radius_squared: f64) -> Self {
         let Chord { a, distance_squared, .. } = *chord;
         let exact_o = line.o();
         let o_low = DVec3::new(exact_o.x.lo, exact_o.y.lo, exact_o.z.lo);
@@ -115,14 +142,13 @@ impl Correction {
             origin: line.origin,
             radius: Half { high: radius_high, low: line.radius - radius_high },
             a,
-            residual_size: radius_squared * larger,
             radius_splitter,
         }
     }
 
-    /// Corrects a root of the first step, and rounds it; `None` where that is not certain.
+    /// Corrects a root.
     #[inline(always)]
-    pub(super) fn correct(&self, t: f64, half_chord: f64) -> Option<Corrected> {
+    pub(super) fn correct(&self, t: f64) -> Corrected {
         /// The highest 26 bits.
         const HIGH: u64 = !0 << 27;
         let high = f64::from_bits(t.to_bits() & HIGH);
@@ -145,26 +171,31 @@ impl Correction {
         let q = f * inverse_slope;
         let tau = -(q + q * (self.a * q * inverse_slope));
 
-        let rounded = t + tau;
-        let rest = tau - (rounded - t);
+        Corrected {
+            t: fast_two_sum(t, tau),
+            step,
+            step_low,
+            w: Halves { high: w_high, low: w_low },
+            correction: self.direction * tau,
+            origin: self.origin,
+        }
+    }
+
+    /// Corrects a root of the first step; `None` where its rounding, or the point, is not certain.
+    #[inline(always)]
+    pub(super) fn correct_surely(
+        &self,
+        t: f64,
+        half_chord: f64,
+        residual_size: f64,
+    ) -> Option<Corrected> {
+        let corrected = self.correct(t);
+        let Pair { hi, lo } = corrected.t;
         let error = t.abs() * ROOT_ERROR;
         let way = half_chord * t;
-        let is_certain = rounded + (rest + error) == rounded
-            && rounded + (rest - error) == rounded
-            && way * way > CLEAR_OF_RESIDUAL * self.residual_size;
-        let coordinate = |p: f64, step: f64, low: f64, d: f64| {
-            let sum = two_sum(p, step);
-            sum.hi + (sum.lo + (low + tau * d))
-        };
-        let (p, d) = (self.origin, self.direction);
-        is_certain.then(|| Corrected {
-            t: rounded,
-            point: DVec3::new(
-                coordinate(p.x, step.x, step_low.x, d.x),
-                coordinate(p.y, step.y, step_low.y, d.y),
-                coordinate(p.z, step.z, step_low.z, d.z),
-            ),
-            offset: w_high + (w_low + d * tau),
-        })
+        let is_certain = hi + (lo + error) == hi
+            && hi + (lo - error) == hi
+            && way * way > CLEAR_OF_RESIDUAL * residual_size;
+        is_certain.then_some(corrected)
     }
 }

@@ -4,12 +4,11 @@ use core::ops::Range;
 
 use glam::{DVec3, Vec3};
 
+use super::carefully_f32;
 use super::chord::{Chord, Derivation};
-use super::crossing::Line;
-use super::format::Format;
+use super::crossing::{Answer, Line, Question};
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully, nearest_carefully};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::U;
 use crate::arithmetic::rounding::rounds_safely;
@@ -93,7 +92,11 @@ impl Precision for Vec3 {
             Nearest::Doubt => {}
         }
         let line = setting.line;
-        let found = nearest_carefully(&Line::new(sphere, ray), Format::F32, range.start.into()..range.end.into())?;
+        let range = range.start.into()..range.end.into();
+        let Some(Answer::Nearest(found)) = carefully_f32(sphere, ray, Question::Nearest(range))
+        else {
+            return None;
+        };
         Some(hit(line, found.t as f32, found.point, found.normal))
     }
 
@@ -113,19 +116,15 @@ impl Precision for Vec3 {
             }
             _ => {}
         }
-        both_carefully(&Line::new(sphere, ray), Format::F32).map(|roots| roots.map(|root| root as f32))
+        match carefully_f32(sphere, ray, Question::Both) {
+            Some(Answer::Both(roots)) => Some(roots.map(|root| root as f32)),
+            _ => None,
+        }
     }
 }
 
 #[inline(always)]
-fn from_afar(
-    line: Line,
-    o: DVec3,
-    a: f64,
-    radius_squared: f64,
-    t: f32,
-    half_chord: f64,
-) -> Hit {
+fn from_afar(line: Line, o: DVec3, a: f64, radius_squared: f64, t: f32, half_chord: f64) -> Hit {
     let moment = o.cross(line.direction);
     let square = a * radius_squared - moment.length_squared();
     let along = crate::float::sqrt(square.max(0.0)).copysign(-half_chord);

@@ -4,20 +4,19 @@ use core::ops::Range;
 
 use glam::DVec3;
 
+use super::carefully_f64;
 use super::chord::{Chord, Derivation};
-use super::crossing::Line;
-use super::format::Format;
+use super::crossing::{Answer, Line, Question};
 use super::halves::{self, Correction};
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully, nearest_carefully};
 use crate::arithmetic::number::Triple;
 use crate::{Hit, Ray, Sphere};
 
 /// Whether a square, a or the larger of o·o and r², is between 2⁻⁴⁸⁰ and 2⁴⁸⁰: then no product of two of them overflows, and
 /// what underflows on the way is far below the error bounds.
 #[inline(always)]
-fn is_safe(square: f64) -> bool {
+pub(super) fn is_safe(square: f64) -> bool {
     const LEAST: u64 = (1023 - 480) << 52;
     const SPAN: u64 = 960 << 52;
     // Above the span are all negative numbers, infinities and NaN.
@@ -58,7 +57,7 @@ impl Setting {
 
     #[inline(always)]
     fn correction(&self, chord: &Chord<f64>) -> Correction {
-        Correction::new(self.line, self.o, chord, self.radius_squared, self.larger(chord))
+        Correction::new(self.line, self.o, chord, self.radius_squared)
     }
 }
 
@@ -75,12 +74,14 @@ impl Precision for DVec3 {
             match plain::nearest_ahead(&chord, setting.radius_squared, halves::CLEAR) {
                 Nearest::Miss => return None,
                 Nearest::Root { t, half_chord } => {
-                    if let Some(corrected) = setting.correction(&chord).correct(t, half_chord) {
-                        let t = corrected.t;
+                    let size = setting.radius_squared * setting.larger(&chord);
+                    let corrected = setting.correction(&chord).correct_surely(t, half_chord, size);
+                    if let Some(corrected) = corrected {
+                        let t = corrected.t.hi;
                         // Below the range, the other root may be in it.
                         if t >= range.start {
                             return (t < range.end).then(|| {
-                                hit(line, t, corrected.point, corrected.offset / line.radius)
+                                hit(line, t, corrected.point(), corrected.offset() / line.radius)
                             });
                         }
                     }
@@ -88,7 +89,10 @@ impl Precision for DVec3 {
                 Nearest::Doubt => {}
             }
         }
-        let found = nearest_carefully(&Line::new(sphere, ray), Format::F64, range)?;
+        let Some(Answer::Nearest(found)) = carefully_f64(sphere, ray, Question::Nearest(range))
+        else {
+            return None;
+        };
         Some(hit(line, found.t, found.point, found.normal))
     }
 
@@ -100,16 +104,20 @@ impl Precision for DVec3 {
                 Both::Miss => return None,
                 Both::Roots { t: [near, far], half_chord } => {
                     let correction = setting.correction(&chord);
-                    let near = correction.correct(near, half_chord);
-                    let far = correction.correct(far, half_chord);
+                    let size = setting.radius_squared * setting.larger(&chord);
+                    let near = correction.correct_surely(near, half_chord, size);
+                    let far = correction.correct_surely(far, half_chord, size);
                     if let (Some(near), Some(far)) = (near, far) {
-                        return Some([near.t, far.t]);
+                        return Some([near.t.hi, far.t.hi]);
                     }
                 }
                 Both::Doubt => {}
             }
         }
-        both_carefully(&Line::new(sphere, ray), Format::F64)
+        match carefully_f64(sphere, ray, Question::Both) {
+            Some(Answer::Both(roots)) => Some(roots),
+            _ => None,
+        }
     }
 }
 

@@ -14,49 +14,59 @@ mod pairs;
 mod plain;
 pub(crate) mod precision;
 
-use core::ops::Range;
+use glam::{DVec3, Vec3};
 
-use crossing::{Answer, Found, Line, Question, Verdict};
+use crossing::{Answer, Line, Question, Verdict};
 use format::Format;
 
-/// Finds the nearest hit, where the plain steps leave a doubt.
+use crate::{Ray, Sphere, Vector};
+
+/// Answers where the plain step in `f32` leaves a doubt.
 #[cold]
 #[inline(never)]
-fn nearest_carefully(line: &Line, format: Format, range: Range<f64>) -> Option<Found> {
-    match carefully(line, format, &Question::Nearest(range)) {
-        Some(Answer::Nearest(found)) => Some(found),
-        _ => None,
-    }
+fn carefully_f32(sphere: &Sphere<Vec3>, ray: &Ray<Vec3>, question: Question) -> Option<Answer> {
+    carefully(sphere, ray, Format::F32, &question)
 }
 
-/// Finds both roots, ascending, where the plain steps leave a doubt.
+/// Answers where the plain step in `f64` and its correction leave a doubt.
 #[cold]
 #[inline(never)]
-fn both_carefully(line: &Line, format: Format) -> Option<[f64; 2]> {
-    match carefully(line, format, &Question::Both) {
-        Some(Answer::Both(roots)) => Some(roots),
-        _ => None,
-    }
+fn carefully_f64(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>, question: Question) -> Option<Answer> {
+    carefully(sphere, ray, Format::F64, &question)
 }
 
-/// Takes each step after the plain ones in turn, until one is certain of the answer.
-fn carefully(line: &Line, format: Format, question: &Question) -> Option<Answer> {
-    if format == Format::F32 {
-        match bounded::chord(line).and_then(|chord| question.ask(&chord)) {
-            Verdict::Miss => return None,
-            Verdict::Hit(answer) => return Some(answer),
-            Verdict::Doubt => {}
+/// Takes the steps with a bound of the case in turn, until one is certain of the answer.
+///
+/// The first of them is compiled for each precision, the others once for both.
+#[inline(always)]
+fn carefully<V: Vector>(
+    sphere: &Sphere<V>,
+    ray: &Ray<V>,
+    format: Format,
+    question: &Question,
+) -> Option<Answer> {
+    let line = Line::new(sphere, ray);
+    match bounded::chord(line, format).and_then(|chord| question.ask(&chord)) {
+        Verdict::Miss => None,
+        Verdict::Hit(answer) => Some(answer),
+        Verdict::Doubt => {
+            let line = Line::new(sphere, ray);
+            in_pairs(&line, format, question)
         }
     }
+}
+
+#[cold]
+#[inline(never)]
+fn in_pairs(line: &Line, format: Format, question: &Question) -> Option<Answer> {
     if !line.is_valid() {
         return None;
     }
     match pairs::chord(line, format).and_then(|chord| question.ask(&chord)) {
-        Verdict::Miss => return None,
-        Verdict::Hit(answer) => return Some(answer),
-        Verdict::Doubt => {}
+        Verdict::Miss => None,
+        Verdict::Hit(answer) => Some(answer),
+        Verdict::Doubt => exactly(line, format, question),
     }
-    exactly(line, format, question)
 }
 
 /// Takes the step that is never in doubt.

@@ -304,13 +304,7 @@ pub(super) struct Crossing {
 impl Crossing {
     /// The hit at a root, if its point is within half the tolerance.
     #[inline(always)]
-    pub(super) fn hit(
-        &self,
-        line: &Line,
-        format: Format,
-        side: Side,
-        root: Root,
-    ) -> Option<Found> {
+    pub(super) fn hit(&self, line: &Line, format: Format, side: Side, root: Root) -> Option<Found> {
         let Root { t, estimate } = root;
         let Self { d, radius, length_exponent, .. } = *self;
         let length = sqrt(self.a.hi);
