@@ -127,6 +127,10 @@ impl Bounded {
         }
         // That sum cancels; the product of the roots is power / a.
         let (power, power_error) = self.power();
+        // Too close to the surface for the correction.
+        if self.format == Format::F64 && power_error > 1e-22 {
+            return None;
+        }
         let relative_error = error / other.abs() + 2.0 * power_error + QUOTIENT_ERROR;
         (power_error < 0.5).then(|| (power / other, relative_error))
     }

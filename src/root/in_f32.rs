@@ -4,11 +4,11 @@ use core::ops::Range;
 
 use glam::{DVec3, Vec3};
 
-use super::carefully_f32;
 use super::chord::{Chord, Derivation};
-use super::crossing::{Answer, Line, Question};
+use super::crossing::Line;
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
+use super::{both_carefully_f32, nearest_carefully_f32};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::U;
 use crate::arithmetic::rounding::rounds_safely;
@@ -92,11 +92,8 @@ impl Precision for Vec3 {
             Nearest::Doubt => {}
         }
         let line = setting.line;
-        let range = range.start.into()..range.end.into();
-        let Some(Answer::Nearest(found)) = carefully_f32(sphere, ray, Question::Nearest(range))
-        else {
-            return None;
-        };
+        let (start, end) = (range.start.into(), range.end.into());
+        let found = nearest_carefully_f32(sphere, ray, start, end)?;
         Some(hit(line, found.t as f32, found.point, found.normal))
     }
 
@@ -116,10 +113,7 @@ impl Precision for Vec3 {
             }
             _ => {}
         }
-        match carefully_f32(sphere, ray, Question::Both) {
-            Some(Answer::Both(roots)) => Some(roots.map(|root| root as f32)),
-            _ => None,
-        }
+        both_carefully_f32(sphere, ray).map(|roots| roots.map(|root| root as f32))
     }
 }
 

@@ -4,12 +4,12 @@ use core::ops::Range;
 
 use glam::DVec3;
 
-use super::carefully_f64;
 use super::chord::{Chord, Derivation};
-use super::crossing::{Answer, Line, Question};
+use super::crossing::Line;
 use super::halves::{self, Correction};
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
+use super::{both_carefully_f64, nearest_carefully_f64};
 use crate::arithmetic::number::Triple;
 use crate::{Hit, Ray, Sphere};
 
@@ -89,10 +89,7 @@ impl Precision for DVec3 {
                 Nearest::Doubt => {}
             }
         }
-        let Some(Answer::Nearest(found)) = carefully_f64(sphere, ray, Question::Nearest(range))
-        else {
-            return None;
-        };
+        let found = nearest_carefully_f64(sphere, ray, range.start, range.end)?;
         Some(hit(line, found.t, found.point, found.normal))
     }
 
@@ -114,10 +111,7 @@ impl Precision for DVec3 {
                 Both::Doubt => {}
             }
         }
-        match carefully_f64(sphere, ray, Question::Both) {
-            Some(Answer::Both(roots)) => Some(roots),
-            _ => None,
-        }
+        both_carefully_f64(sphere, ray)
     }
 }
 

@@ -16,24 +16,43 @@ pub(crate) mod precision;
 
 use glam::{DVec3, Vec3};
 
-use crossing::{Answer, Line, Question, Verdict};
+use crossing::{Answer, Found, Line, Question, Verdict};
 use format::Format;
 
 use crate::{Ray, Sphere, Vector};
 
-/// Answers where the plain step in `f32` leaves a doubt.
-#[cold]
-#[inline(never)]
-fn carefully_f32(sphere: &Sphere<Vec3>, ray: &Ray<Vec3>, question: Question) -> Option<Answer> {
-    carefully(sphere, ray, Format::F32, &question)
+/// Defines what a precision calls where its plain step leaves a doubt.
+macro_rules! carefully {
+    ($nearest:ident, $both:ident, $vector:ty, $format:expr) => {
+        /// Finds the nearest hit.
+        #[cold]
+        #[inline(never)]
+        fn $nearest(
+            sphere: &Sphere<$vector>,
+            ray: &Ray<$vector>,
+            start: f64,
+            end: f64,
+        ) -> Option<Found> {
+            match carefully(sphere, ray, $format, &Question::Nearest(start..end)) {
+                Some(Answer::Nearest(found)) => Some(found),
+                _ => None,
+            }
+        }
+
+        /// Finds both roots, ascending.
+        #[cold]
+        #[inline(never)]
+        fn $both(sphere: &Sphere<$vector>, ray: &Ray<$vector>) -> Option<[f64; 2]> {
+            match carefully(sphere, ray, $format, &Question::Both) {
+                Some(Answer::Both(roots)) => Some(roots),
+                _ => None,
+            }
+        }
+    };
 }
 
-/// Answers where the plain step in `f64` and its correction leave a doubt.
-#[cold]
-#[inline(never)]
-fn carefully_f64(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>, question: Question) -> Option<Answer> {
-    carefully(sphere, ray, Format::F64, &question)
-}
+carefully!(nearest_carefully_f32, both_carefully_f32, Vec3, Format::F32);
+carefully!(nearest_carefully_f64, both_carefully_f64, DVec3, Format::F64);
 
 /// Takes the steps with a bound of the case in turn, until one is certain of the answer.
 ///
