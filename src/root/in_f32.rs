@@ -93,7 +93,7 @@ impl Precision for Vec3 {
         }
         let line = setting.line;
         let (start, end) = (range.start.into(), range.end.into());
-        let found = nearest_carefully_f32(sphere, ray, start, end)?;
+        let found = nearest_carefully_f32(&Line::new(sphere, ray), start, end)?;
         Some(hit(line, found.t as f32, found.point, found.normal))
     }
 
@@ -113,7 +113,7 @@ impl Precision for Vec3 {
             }
             _ => {}
         }
-        both_carefully_f32(sphere, ray).map(|roots| roots.map(|root| root as f32))
+        both_carefully_f32(&Line::new(sphere, ray)).map(|roots| roots.map(|root| root as f32))
     }
 }
 

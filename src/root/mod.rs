@@ -14,26 +14,17 @@ mod pairs;
 mod plain;
 pub(crate) mod precision;
 
-use glam::{DVec3, Vec3};
-
 use crossing::{Answer, Found, Line, Question, Verdict};
 use format::Format;
 
-use crate::{Ray, Sphere, Vector};
-
 /// Defines what a precision calls where its plain step leaves a doubt.
 macro_rules! carefully {
-    ($nearest:ident, $both:ident, $vector:ty, $format:expr) => {
+    ($nearest:ident, $both:ident, $format:expr) => {
         /// Finds the nearest hit.
         #[cold]
         #[inline(never)]
-        fn $nearest(
-            sphere: &Sphere<$vector>,
-            ray: &Ray<$vector>,
-            start: f64,
-            end: f64,
-        ) -> Option<Found> {
-            match carefully(sphere, ray, $format, &Question::Nearest(start..end)) {
+        fn $nearest(line: &Line, start: f64, end: f64) -> Option<Found> {
+            match carefully(line, $format, &Question::Nearest(start..end)) {
                 Some(Answer::Nearest(found)) => Some(found),
                 _ => None,
             }
@@ -42,8 +33,8 @@ macro_rules! carefully {
         /// Finds both roots, ascending.
         #[cold]
         #[inline(never)]
-        fn $both(sphere: &Sphere<$vector>, ray: &Ray<$vector>) -> Option<[f64; 2]> {
-            match carefully(sphere, ray, $format, &Question::Both) {
+        fn $both(line: &Line) -> Option<[f64; 2]> {
+            match carefully(line, $format, &Question::Both) {
                 Some(Answer::Both(roots)) => Some(roots),
                 _ => None,
             }
@@ -51,27 +42,18 @@ macro_rules! carefully {
     };
 }
 
-carefully!(nearest_carefully_f32, both_carefully_f32, Vec3, Format::F32);
-carefully!(nearest_carefully_f64, both_carefully_f64, DVec3, Format::F64);
+carefully!(nearest_carefully_f32, both_carefully_f32, Format::F32);
+carefully!(nearest_carefully_f64, both_carefully_f64, Format::F64);
 
 /// Takes the steps with a bound of the case in turn, until one is certain of the answer.
 ///
 /// The first of them is compiled for each precision, the others once for both.
 #[inline(always)]
-fn carefully<V: Vector>(
-    sphere: &Sphere<V>,
-    ray: &Ray<V>,
-    format: Format,
-    question: &Question,
-) -> Option<Answer> {
-    let line = Line::new(sphere, ray);
-    match bounded::chord(line, format).and_then(|chord| question.ask(&chord)) {
+fn carefully(line: &Line, format: Format, question: &Question) -> Option<Answer> {
+    match bounded::chord(*line, format).and_then(|chord| question.ask(&chord)) {
         Verdict::Miss => None,
         Verdict::Hit(answer) => Some(answer),
-        Verdict::Doubt => {
-            let line = Line::new(sphere, ray);
-            in_pairs(&line, format, question)
-        }
+        Verdict::Doubt => in_pairs(line, format, question),
     }
 }
 
