@@ -53,10 +53,27 @@ macro_rules! family {
 pub const FAMILIES: &[Family] = &[
     family!("easy", easy, "unit sphere at 2 to 10"),
     family!("far", far, "distance/radius 1e2 to 1e4"),
-    family!("very far", very_far, "distance/radius 1e4 to 1e7; to 1e15"),
-    family!("huge", huge, "radius 1e3 to 1e6; to 1e12; origin 0.1 to 10 above the surface"),
-    family!("grazing", grazing, "within 1e-8 to 1e-3 of the limb; 1e-17 to 1e-6"),
-    family!("grazing from afar", grazing_from_afar, "the same from 1e2 to 1e5 away; to 1e9"),
+    family!("very far", very_far, "distance/radius 1e4 to 1e7"),
+    family!("farthest", farthest, "distance/radius 1e7 to 1e8; to 1e15"),
+    family!("huge", huge, "radius 1e3 to 1e6; origin 0.1 to 10 above the surface"),
+    family!("hugest", hugest, "the same with a radius of 1e6 to 1e7; to 1e12"),
+    family!("grazing", grazing, "within 1e-8 to 1e-3 of the limb"),
+    family!("at the limb", at_the_limb, "within 1e-10 to 1e-8 of the limb; from 1e-17"),
+    family!(
+        "grazing from afar",
+        grazing_from_afar,
+        "within 1e-8 to 1e-3 of the limb, 1e2 to 1e5 away"
+    ),
+    family!(
+        "at the limb from afar",
+        at_the_limb_from_afar,
+        "within 1e-10 to 1e-8 of the limb, 1e2 to 1e6 away; from 1e-17, to 1e9"
+    ),
+    family!(
+        "planet's limb",
+        planets_limb,
+        "within 100 km of the limb of a planet, in meters, seen from an orbit at 200 to 2,000 km"
+    ),
     family!("on the surface", on_the_surface, "origin on the surface, as near as floats get"),
     family!(
         "on the surface, exactly",
@@ -78,7 +95,8 @@ pub const FAMILIES: &[Family] = &[
         far_from_world_origin,
         "center at 1e3 to 1e6 from zero; to 1e12"
     ),
-    family!("tiny", tiny, "radius 1e-6 to 1e-3 at distance 1; from 1e-12"),
+    family!("tiny", tiny, "radius 1e-6 to 1e-3 at distance 1"),
+    family!("tiniest", tiniest, "radius 1e-8 to 1e-6 at distance 1; from 1e-12"),
     family!("exact tangent", exact_tangent, "integer frames whose discriminant is exactly 0"),
     family!(
         "tangent's neighbor",
@@ -92,6 +110,16 @@ pub const FAMILIES: &[Family] = &[
     ),
     family!("exact tie", exact_tie, "a root exactly midway between two floats"),
     family!("near tie", near_tie, "a root closer to midway than any fixed precision tells"),
+    family!(
+        "near tie beside the axis",
+        near_tie_beside_the_axis,
+        "the center moved from an exact tie by 1e-12 to 1e-1 of the radius"
+    ),
+    family!(
+        "tie of a tiny sphere",
+        tie_of_a_tiny_sphere,
+        "radius of half an ulp of the distance, or beside that tie"
+    ),
     family!(
         "hard to round",
         hard_to_round,
@@ -348,32 +376,69 @@ fn far<V: Precision>(rng: &mut Rng) -> Case<V> {
 }
 
 fn very_far<V: Precision>(rng: &mut Rng) -> Case<V> {
-    let (limb_fraction, distance) = (rng.limb_fraction(), rng.magnitude(1e4, V::either(1e7, 1e15)));
+    let (limb_fraction, distance) = (rng.limb_fraction(), rng.magnitude(1e4, 1e7));
+    Scene::at_distance(rng, limb_fraction, distance).rounded()
+}
+
+fn farthest<V: Precision>(rng: &mut Rng) -> Case<V> {
+    let (limb_fraction, distance) = (rng.limb_fraction(), rng.magnitude(1e7, V::either(1e8, 1e15)));
     Scene::at_distance(rng, limb_fraction, distance).rounded()
 }
 
 fn huge<V: Precision>(rng: &mut Rng) -> Case<V> {
+    close_to_a_large_sphere(rng, 1e3, 1e6)
+}
+
+fn hugest<V: Precision>(rng: &mut Rng) -> Case<V> {
+    close_to_a_large_sphere(rng, 1e6, V::either(1e7, 1e12))
+}
+
+fn close_to_a_large_sphere<V: Precision>(rng: &mut Rng, low: f64, high: f64) -> Case<V> {
     let up = rng.unit_vector();
-    let radius = rng.magnitude(1e3, V::either(1e6, 1e12));
+    let radius = rng.magnitude(low, high);
     let origin = up * rng.magnitude(0.1, 10.0);
     Scene { origin, direction: rng.unit_vector(), center: up * -radius, radius }.rounded()
 }
 
 /// A fraction of the radius just within or beyond the limb.
-fn near_the_limb<V: Precision>(rng: &mut Rng) -> f64 {
-    let (low, high) = V::either((1e-8, 1e-3), (1e-17, 1e-6));
+fn near_the_limb(rng: &mut Rng, low: f64, high: f64) -> f64 {
     1.0 + rng.sign() * rng.magnitude(low, high)
 }
 
 fn grazing<V: Precision>(rng: &mut Rng) -> Case<V> {
-    let (limb_fraction, distance) = (near_the_limb::<V>(rng), rng.uniform(2.0, 10.0));
+    let (limb_fraction, distance) = (near_the_limb(rng, 1e-8, 1e-3), rng.uniform(2.0, 10.0));
+    Scene::at_distance(rng, limb_fraction, distance).rounded()
+}
+
+fn at_the_limb<V: Precision>(rng: &mut Rng) -> Case<V> {
+    let limb_fraction = near_the_limb(rng, V::either(1e-10, 1e-17), 1e-8);
+    let distance = rng.uniform(2.0, 10.0);
     Scene::at_distance(rng, limb_fraction, distance).rounded()
 }
 
 fn grazing_from_afar<V: Precision>(rng: &mut Rng) -> Case<V> {
-    let (limb_fraction, distance) =
-        (near_the_limb::<V>(rng), rng.magnitude(1e2, V::either(1e5, 1e9)));
+    let (limb_fraction, distance) = (near_the_limb(rng, 1e-8, 1e-3), rng.magnitude(1e2, 1e5));
     Scene::at_distance(rng, limb_fraction, distance).rounded()
+}
+
+fn at_the_limb_from_afar<V: Precision>(rng: &mut Rng) -> Case<V> {
+    let limb_fraction = near_the_limb(rng, V::either(1e-10, 1e-17), 1e-8);
+    let distance = rng.magnitude(1e2, V::either(1e6, 1e9));
+    Scene::at_distance(rng, limb_fraction, distance).rounded()
+}
+
+/// A planet of the Earth's size, whose surface is at the world's origin.
+fn planets_limb<V: Precision>(rng: &mut Rng) -> Case<V> {
+    let radius = 6.371e6;
+    let up = rng.unit_vector();
+    let center = DVec3::NEG_Y * radius;
+    let orbit = radius + rng.uniform(2e5, 2e6);
+    let origin = center + up * orbit;
+    // The line's closest approach, up to 100 km above or below the ground.
+    let closest = radius + rng.sign() * rng.magnitude(1.0, 1e5);
+    let sine = closest / orbit;
+    let direction = rng.perpendicular(up) * sine - up * libm::sqrt(1.0 - sine * sine);
+    Scene { origin, direction, center, radius }.rounded()
 }
 
 fn on_the_surface<V: Precision>(rng: &mut Rng) -> Case<V> {
@@ -433,7 +498,15 @@ fn far_from_world_origin<V: Precision>(rng: &mut Rng) -> Case<V> {
 }
 
 fn tiny<V: Precision>(rng: &mut Rng) -> Case<V> {
-    let radius = rng.magnitude(V::either(1e-6, 1e-12), 1e-3);
+    small_at_distance_1(rng, 1e-6, 1e-3)
+}
+
+fn tiniest<V: Precision>(rng: &mut Rng) -> Case<V> {
+    small_at_distance_1(rng, V::either(1e-8, 1e-12), 1e-6)
+}
+
+fn small_at_distance_1<V: Precision>(rng: &mut Rng, low: f64, high: f64) -> Case<V> {
+    let radius = rng.magnitude(low, high);
     let limb_fraction = rng.limb_fraction();
     Scene::passing(rng, DVec3::ZERO, radius, limb_fraction * radius, 1.0).rounded()
 }
@@ -525,7 +598,7 @@ fn exactly_on_the_surface<V: Precision>(rng: &mut Rng) -> Case<V> {
 /// The half-chord and the closest approach are the legs of a Pythagorean triangle whose hypotenuse is the radius, so
 /// the roots are integers, and of one bit more than a mantissa has. Off the plane of that triangle, by `off_plane`, the
 /// center moves the roots from there by about half the square of that.
-fn tie<V: Precision>(rng: &mut Rng, off_plane: f64) -> Case<V> {
+fn tie<V: Precision>(rng: &mut Rng, off_plane: impl Fn(f64) -> f64) -> Case<V> {
     let n = rng.integer(1, 19);
     let m = rng.integer(n + 1, 20);
     let (half_chord, closest, radius) = (m * m - n * n, 2 * m * n, m * m + n * n);
@@ -546,7 +619,7 @@ fn tie<V: Precision>(rng: &mut Rng, off_plane: f64) -> Case<V> {
     Scene {
         origin: rotated(vector(-origin, sideways - closest, 0.0)) * sign,
         direction: rotated(DVec3::X) * sign * rng.power_of_two(-10, 10),
-        center: rotated(vector(center, sideways, off_plane)) * sign,
+        center: rotated(vector(center, sideways, off_plane(integral(radius)))) * sign,
         radius: integral(radius),
     }
     .scaled(rng.power_of_two(-20, 20))
@@ -554,12 +627,38 @@ fn tie<V: Precision>(rng: &mut Rng, off_plane: f64) -> Case<V> {
 }
 
 fn exact_tie<V: Precision>(rng: &mut Rng) -> Case<V> {
-    tie(rng, 0.0)
+    tie(rng, |_| 0.0)
 }
 
 fn near_tie<V: Precision>(rng: &mut Rng) -> Case<V> {
     let off_plane = rng.magnitude(V::either(1e-18, 1e-150), 1e-2);
-    tie(rng, off_plane)
+    tie(rng, |_| off_plane)
+}
+
+fn near_tie_beside_the_axis<V: Precision>(rng: &mut Rng) -> Case<V> {
+    let part = rng.magnitude(1e-12, 1e-1);
+    tie(rng, |radius| radius * part)
+}
+
+/// On an axis, a center at a float and a radius of an odd number of half its ulps; in one of two cases, the center is moved
+/// beside the axis by 1e-12 to 1e-1 of the radius.
+fn tie_of_a_tiny_sphere<V: Precision>(rng: &mut Rng) -> Case<V> {
+    let distance = V::Scalar::from_f64(rng.uniform(1.0, 2.0)).into();
+    let half_ulp = two_to(-i64::from(V::DIGITS));
+    let radius = half_ulp * integral(2 * rng.integer(0, 20) + 1);
+    let beside = if rng.coin() { 0.0 } else { rng.magnitude(1e-12, 1e-1) * radius };
+    let axis = rng.index();
+    let along = DVec3::AXES[axis] * rng.sign();
+    let across = DVec3::AXES[(axis + 1) % 3];
+    let scale = rng.power_of_two(-20, 20);
+    Scene {
+        origin: DVec3::ZERO,
+        direction: along * rng.power_of_two(-10, 10),
+        center: along * distance + across * beside,
+        radius,
+    }
+    .scaled(scale)
+    .rounded()
 }
 
 /// In a plane, a line and a circle with the coordinates that chance gives; then the center is moved off that plane so far
