@@ -29,7 +29,7 @@ use super::crossing::Line;
 use crate::arithmetic::pair::{Pair, U, fast_two_sum, two_sum};
 
 /// The part `clear` of the first step: see there.
-pub(super) const CLEAR: f64 = 1.0 / 8192.0;
+pub(super) const CLEAR: f64 = 1.0 / 65536.0;
 
 /// The square of the least s t, in r² m.
 const CLEAR_OF_RESIDUAL: f64 = 1.0 / 1_048_576.0;
@@ -69,6 +69,23 @@ fn splitter(square: f64) -> f64 {
     const ROUND_UP: u64 = 1077 << 52;
     const HALF: u64 = 1 << 51;
     f64::from_bits((square.to_bits() + ROUND_UP) >> 53 << 52 | HALF)
+}
+
+/// o·o - r², off by at most 2⁻⁷⁶ m besides the rounding of the result, with `o` rounded and m as `larger`.
+///
+/// The sum of high parts is exact. What is rounded are o.low, 2⁻⁸⁰ of |o|, and the products and sums with low parts, of at most
+/// 2⁻²⁵ m each.
+#[inline(always)]
+pub(super) fn power(line: Line, o: DVec3, larger: f64) -> f64 {
+    let exact_o = line.o();
+    let o_low = DVec3::new(exact_o.x.lo, exact_o.y.lo, exact_o.z.lo);
+    let splitter = splitter(larger);
+    let Halves { high, low } = Halves::new(o, splitter);
+    let low = low + o_low;
+    let radius_high = (line.radius + splitter) - splitter;
+    let radius_low = line.radius - radius_high;
+    let leading = high.dot(high) - radius_high * radius_high;
+    leading + (low.dot(o + high) - radius_low * (line.radius + radius_high))
 }
 
 /// A corrected root, and where the ray is there.

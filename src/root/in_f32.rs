@@ -6,12 +6,14 @@ use glam::{DVec3, Vec3};
 
 use super::chord::{Chord, Derivation};
 use super::crossing::Line;
+use super::halves;
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
 use super::{both_carefully_f32, nearest_carefully_f32};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::U;
 use crate::arithmetic::rounding::rounds_safely;
+use crate::float::sqrt;
 use crate::{Hit, Ray, Sphere};
 
 /// The part `clear` of the plain step.
@@ -61,10 +63,20 @@ impl Setting {
     fn hit(&self, a: f64, distance_squared: f64, t: f64, rounded: f32, half_chord: f64) -> Hit {
         let Self { line, o, radius_squared } = *self;
         if distance_squared > NEAR * radius_squared {
-            return from_afar(line, o, a, radius_squared, rounded, half_chord);
+            return self.hit_from_afar(a, rounded, half_chord);
         }
         let step = line.direction * t;
         hit(line, rounded, line.origin + step, (step - o) * line.radius.recip())
+    }
+
+    #[inline(always)]
+    fn hit_from_afar(&self, a: f64, rounded: f32, half_chord: f64) -> Hit {
+        let Self { line, o, radius_squared } = *self;
+        let moment = o.cross(line.direction);
+        let square = a * radius_squared - moment.length_squared();
+        let along = sqrt(square.max(0.0)).copysign(-half_chord);
+        let offset = (moment.cross(line.direction) + line.direction * along) / a;
+        hit(line, rounded, line.center + offset, offset * line.radius.recip())
     }
 }
 
@@ -75,8 +87,21 @@ impl Precision for Vec3 {
     fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
         let setting = Setting::new(sphere, ray);
         let chord = setting.chord::<D>();
-        match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR) {
+        let larger = chord.distance_squared.max(setting.radius_squared);
+        let fine_power = || Some(halves::power(setting.line, setting.o, larger));
+        match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
             Nearest::Miss => return None,
+            Nearest::Rough { t, error } => {
+                let [low, rounded] = [(t - error) as f32, (t + error) as f32];
+                if low == rounded
+                    && rounded >= range.start
+                    && rounded >= f32::MIN_POSITIVE
+                    && chord.distance_squared > NEAR * setting.radius_squared
+                {
+                    return (rounded < range.end)
+                        .then(|| setting.hit_from_afar(chord.a, rounded, 1.0));
+                }
+            }
             Nearest::Root { t, half_chord } => {
                 let rounded = t as f32;
                 // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
@@ -115,15 +140,6 @@ impl Precision for Vec3 {
         }
         both_carefully_f32(&Line::new(sphere, ray)).map(|roots| roots.map(|root| root as f32))
     }
-}
-
-#[inline(always)]
-fn from_afar(line: Line, o: DVec3, a: f64, radius_squared: f64, t: f32, half_chord: f64) -> Hit {
-    let moment = o.cross(line.direction);
-    let square = a * radius_squared - moment.length_squared();
-    let along = crate::float::sqrt(square.max(0.0)).copysign(-half_chord);
-    let offset = (moment.cross(line.direction) + line.direction * along) / a;
-    hit(line, t, line.center + offset, offset * line.radius.recip())
 }
 
 /// The hit of which everything is known in `f64`.

@@ -71,7 +71,7 @@ impl Precision for DVec3 {
         let setting = Setting::new(sphere, ray);
         let line = setting.line;
         if let Some(chord) = setting.chord::<D>() {
-            match plain::nearest_ahead(&chord, setting.radius_squared, halves::CLEAR) {
+            match plain::nearest_ahead(&chord, setting.radius_squared, halves::CLEAR, || None) {
                 Nearest::Miss => return None,
                 Nearest::Root { t, half_chord } => {
                     let size = setting.radius_squared * setting.larger(&chord);
@@ -86,7 +86,7 @@ impl Precision for DVec3 {
                         }
                     }
                 }
-                Nearest::Doubt => {}
+                Nearest::Rough { .. } | Nearest::Doubt => {}
             }
         }
         let found = nearest_carefully_f64(&Line::new(sphere, ray), range.start, range.end)?;

@@ -55,6 +55,12 @@ const SURE_SIGN: f64 = POWER_ERROR + U;
 /// The relative error of an accepted root, times `clear`: 7 u and 10.5 u, and half a u for the rest.
 pub(super) const ROOT_ERROR: f64 = POWER_ERROR + DISCRIMINANT_ERROR / 2.0 + U / 2.0;
 
+/// Beyond this part of m, a power from a finer sum is certain enough: see [`nearest_ahead`].
+const FINE_POWER: f64 = 1.0 / 1_099_511_627_776.0; // 2^-40
+
+/// Of a root whose discriminant is only just certain to be positive, times |half-chord| / m.
+const ROUGH_ERROR: f64 = POWER_ERROR + DISCRIMINANT_ERROR + 2.0 * U;
+
 /// The nearest root ahead.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Nearest {
@@ -66,35 +72,66 @@ pub(super) enum Nearest {
         /// √discriminant where the ray enters there, -√discriminant where it leaves.
         half_chord: f64,
     },
+    /// From outside, this one, within `error`.
+    Rough { t: f64, error: f64 },
     /// The next step has to look.
     Doubt,
 }
 
 /// Finds the nearest root ahead, t > 0, of a chord in plain `f64`.
 ///
+/// `fine_power` gives the power with an error of at most 2⁻⁷⁶ m and its own last place, or `None`. It is asked where only the
+/// power is too small beside m, as close to the surface: with s (|h| + s) > clear a m, the discriminant and h err by no more than
+/// in the other cases, and where such a power is more than 2⁻⁴⁰ m, it errs by 2⁻³⁶ of itself.
+///
 /// A NaN or an infinity anywhere ends in doubt: none of the comparisons holds then. So does a zero direction. A negative
 /// radius, given as a negative square, is a miss or ends in doubt.
 #[inline(always)]
-pub(super) fn nearest_ahead(chord: &Chord<f64>, radius_squared: f64, clear: f64) -> Nearest {
+pub(super) fn nearest_ahead(
+    chord: &Chord<f64>,
+    radius_squared: f64,
+    clear: f64,
+    fine_power: impl FnOnce() -> Option<f64>,
+) -> Nearest {
     let Chord { a, h, distance_squared, power, discriminant } = *chord;
+    let is_fine = |power: f64, larger: f64| power.abs() > FINE_POWER * larger;
     if power > SURE_SIGN * distance_squared {
         // Outside: both roots lie on the side of the closest approach. If h is above zero in truth, then by less than its error,
         // h² < 16 u² a o·o, far below a power > u a o·o, and the line misses.
-        if h <= 0.0 || discriminant < -SURE_MISS * (a * distance_squared) {
+        let doubtful = SURE_MISS * (a * distance_squared);
+        if h <= 0.0 || discriminant < -doubtful {
             return Nearest::Miss;
         }
         // The nearer root, (h - s) / a, without its cancellation: the product of the roots is power / a.
         let half_chord = sqrt(discriminant);
-        let t = power / (h + half_chord);
+        let sum = h + half_chord;
+        let t = power / sum;
         if half_chord * t > clear * distance_squared {
             return Nearest::Root { t, half_chord };
+        }
+        if half_chord * sum > clear * (a * distance_squared) {
+            if let Some(power) = fine_power() {
+                if is_fine(power, distance_squared) {
+                    return Nearest::Root { t: power / sum, half_chord };
+                }
+            }
+        } else if discriminant > doubtful {
+            return Nearest::Rough { t, error: ROUGH_ERROR * distance_squared / half_chord };
         }
     } else if power < -SURE_SIGN * radius_squared {
         // Inside: one root lies ahead, (h + s) / a, and it cancels where the center is behind.
         let half_chord = sqrt(discriminant);
-        let t = if h > 0.0 { (h + half_chord) / a } else { power / (h - half_chord) };
+        let sum = h.abs() + half_chord;
+        let t = if h > 0.0 { sum / a } else { -power / sum };
         if half_chord * t > clear * radius_squared {
             return Nearest::Root { t, half_chord: -half_chord };
+        }
+        if half_chord * sum > clear * (a * radius_squared) {
+            if let Some(power) = fine_power() {
+                if is_fine(power, radius_squared) {
+                    return Nearest::Root { t: -power / sum, half_chord: -half_chord };
+                }
+            }
         }
     }
     Nearest::Doubt
