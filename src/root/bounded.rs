@@ -170,7 +170,7 @@ impl Crossings for Bounded {
 
     #[inline(always)]
     fn hit(&self, side: Side, root: Root) -> Option<Found> {
-        let Line { origin, direction, center, radius, .. } = self.line;
+        let Line { origin, direction, center, radius } = self.line;
         let Root { t, estimate: Estimate { t: Pair { hi: unrounded, .. }, relative_error } } = root;
         let length = sqrt(self.chord.a);
         let travelled = unrounded.abs() * length;

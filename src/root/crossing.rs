@@ -9,17 +9,12 @@ use crate::arithmetic::pair::{Pair, two_difference};
 use crate::{Ray, Sphere, Vector};
 
 /// A line and a sphere as the caller gave them.
-///
-/// It is written by the hot path and read by a step that is not inlined. Where the compiler writes two numbers at once, a read
-/// that begins between them waits until both are in memory, and so do all rays after it; so each vector has its own place.
 #[derive(Clone, Copy, Debug)]
-#[repr(C)]
 pub(crate) struct Line {
     pub(crate) origin: DVec3,
-    pub(crate) radius: f64,
     pub(crate) direction: DVec3,
-    unused: f64,
     pub(crate) center: DVec3,
+    pub(crate) radius: f64,
 }
 
 impl Line {
@@ -30,7 +25,6 @@ impl Line {
             direction: ray.direction.to_f64(),
             center: sphere.center.to_f64(),
             radius: sphere.radius.into(),
-            unused: 0.0,
         }
     }
 

@@ -5,11 +5,12 @@ use core::ops::Range;
 use glam::{DVec3, Vec3};
 
 use super::chord::{Chord, Derivation};
-use super::crossing::Line;
+use super::crossing::{Found, Line};
 use super::halves;
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
 use super::{both_carefully_f32, nearest_carefully_f32};
+use crate::algebraic::Quadratic;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::U;
 use crate::arithmetic::rounding::rounds_safely;
@@ -54,30 +55,68 @@ impl Setting {
         D::chord(Triple::from(self.o), Triple::from(self.line.direction), self.radius_squared)
     }
 
-    /// The hit at a root of the plain step.
-    ///
-    /// From afar, where the error of t would move the point, the way from the center is taken by the closest approach. Its foot
-    /// is off by 4√2 u |o| at most, and half the chord, which is more than [`CLEAR`] |o| there, by half of the error of its square,
-    /// 8 u (2 r² + r |o|), over itself: together less than 2⁻³⁴ r.
+    /// The hit at a root of the plain step, with the root rounded.
     #[inline(always)]
-    fn hit(&self, a: f64, distance_squared: f64, t: f64, rounded: f32, half_chord: f64) -> Hit {
+    fn found(&self, chord: &Chord<f64>, t: f64, rounded: f32, half_chord: f64) -> Found {
         let Self { line, o, radius_squared } = *self;
-        if distance_squared > NEAR * radius_squared {
-            return self.hit_from_afar(a, rounded, half_chord);
+        if chord.distance_squared > NEAR * radius_squared {
+            return self.found_from_afar(chord.a, rounded, half_chord);
         }
         let step = line.direction * t;
-        hit(line, rounded, line.origin + step, (step - o) * line.radius.recip())
+        let normal = (step - o) * line.radius.recip();
+        Found { t: rounded.into(), point: line.origin + step, normal }
     }
 
+    /// The same from afar, where the error of t would move the point: by the closest approach.
+    ///
+    /// Its foot is off by 4√2 u |o| at most, less than 2⁻²⁶ r up to |o| = 2²⁴ r, and farther away the discriminant is not certain
+    /// to be positive. Half the chord is off by 4 u (2 r² + r |o|) over itself, less than 2⁻²⁶ r where it is more than 2⁻²⁴ |o|, as
+    /// it is where the discriminant is more than 22 u a m.
     #[inline(always)]
-    fn hit_from_afar(&self, a: f64, rounded: f32, half_chord: f64) -> Hit {
+    fn found_from_afar(&self, a: f64, rounded: f32, half_chord: f64) -> Found {
         let Self { line, o, radius_squared } = *self;
         let moment = o.cross(line.direction);
         let square = a * radius_squared - moment.length_squared();
         let along = sqrt(square.max(0.0)).copysign(-half_chord);
         let offset = (moment.cross(line.direction) + line.direction * along) / a;
-        hit(line, rounded, line.center + offset, offset * line.radius.recip())
+        let normal = offset * line.radius.recip();
+        Found { t: rounded.into(), point: line.center + offset, normal }
     }
+}
+
+/// The nearest hit where the plain step is in doubt: once more, with a finer power close to the surface, and with the bound of
+/// the case from afar.
+#[cold]
+#[inline(never)]
+fn nearest_again(
+    sphere: &Sphere,
+    ray: &Ray,
+    line: &Line,
+    Range { start, end }: Range<f32>,
+) -> Option<Found> {
+    let setting = Setting::new(sphere, ray);
+    let chord = setting.chord::<Quadratic>();
+    let larger = chord.distance_squared.max(setting.radius_squared);
+    let fine_power = || Some(halves::power(setting.line, setting.o, larger));
+    // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
+    let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
+    match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
+        Nearest::Root { t, half_chord } => {
+            let rounded = t as f32;
+            if rounds_safely::<MARGIN>(t) && is_certain(rounded) {
+                return (rounded < end).then(|| setting.found(&chord, t, rounded, half_chord));
+            }
+        }
+        Nearest::Rough { t, error } => {
+            let [low, rounded] = [(t - error) as f32, (t + error) as f32];
+            let is_far = chord.distance_squared > NEAR * setting.radius_squared;
+            if low == rounded && is_certain(rounded) && is_far {
+                return (rounded < end).then(|| setting.found_from_afar(chord.a, rounded, 1.0));
+            }
+        }
+        Nearest::Miss | Nearest::Doubt => {}
+    }
+    nearest_carefully_f32(sphere, ray, line, start.into(), end.into())
 }
 
 impl Precision for Vec3 {
@@ -87,21 +126,8 @@ impl Precision for Vec3 {
     fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
         let setting = Setting::new(sphere, ray);
         let chord = setting.chord::<D>();
-        let larger = chord.distance_squared.max(setting.radius_squared);
-        let fine_power = || Some(halves::power(setting.line, setting.o, larger));
-        match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
+        match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, || None) {
             Nearest::Miss => return None,
-            Nearest::Rough { t, error } => {
-                let [low, rounded] = [(t - error) as f32, (t + error) as f32];
-                if low == rounded
-                    && rounded >= range.start
-                    && rounded >= f32::MIN_POSITIVE
-                    && chord.distance_squared > NEAR * setting.radius_squared
-                {
-                    return (rounded < range.end)
-                        .then(|| setting.hit_from_afar(chord.a, rounded, 1.0));
-                }
-            }
             Nearest::Root { t, half_chord } => {
                 let rounded = t as f32;
                 // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
@@ -109,17 +135,24 @@ impl Precision for Vec3 {
                     && rounded >= range.start
                     && rounded >= f32::MIN_POSITIVE
                 {
-                    return (rounded < range.end).then(|| {
-                        setting.hit(chord.a, chord.distance_squared, t, rounded, half_chord)
-                    });
+                    if rounded >= range.end {
+                        return None;
+                    }
+                    // The two apart, so that the compiler need not keep what one of them does without.
+                    return if chord.distance_squared > NEAR * setting.radius_squared {
+                        Some(hit(
+                            setting.line,
+                            setting.found_from_afar(chord.a, rounded, half_chord),
+                        ))
+                    } else {
+                        Some(hit(setting.line, setting.found(&chord, t, rounded, half_chord)))
+                    };
                 }
             }
-            Nearest::Doubt => {}
+            Nearest::Rough { .. } | Nearest::Doubt => {}
         }
-        let line = setting.line;
-        let (start, end) = (range.start.into(), range.end.into());
-        let found = nearest_carefully_f32(&Line::new(sphere, ray), start, end)?;
-        Some(hit(line, found.t as f32, found.point, found.normal))
+        let found = nearest_again(sphere, ray, &Line::new(sphere, ray), range)?;
+        Some(hit(setting.line, found))
     }
 
     #[inline(always)]
@@ -138,16 +171,17 @@ impl Precision for Vec3 {
             }
             _ => {}
         }
-        both_carefully_f32(&Line::new(sphere, ray)).map(|roots| roots.map(|root| root as f32))
+        both_carefully_f32(sphere, ray, &Line::new(sphere, ray))
+            .map(|roots| roots.map(|root| root as f32))
     }
 }
 
-/// The hit of which everything is known in `f64`.
+/// The hit, rounded.
 #[inline(always)]
-fn hit(line: Line, t: f32, point: DVec3, normal: DVec3) -> Hit {
-    let point = point.as_vec3();
-    let clearance = clearance(point, t, line);
-    Hit { t, point, normal: normal.as_vec3(), clearance }
+#[expect(clippy::cast_possible_truncation, reason = "t is rounded already")]
+fn hit(line: Line, found: Found) -> Hit {
+    let (t, point) = (found.t as f32, found.point.as_vec3());
+    Hit { t, point, normal: found.normal.as_vec3(), clearance: clearance(point, t, line) }
 }
 
 /// How far along the normal a spawned ray starts.

@@ -16,15 +16,27 @@ pub(crate) mod precision;
 
 use crossing::{Answer, Found, Line, Question, Verdict};
 use format::Format;
+use glam::{DVec3, Vec3};
+
+use crate::{Ray, Sphere, Vector};
 
 /// Defines what a precision calls where its plain step leaves a doubt.
+///
+/// The line is that of the ray and the sphere. It is handed over too because it is at hand, and is read by later steps only: what
+/// has just been written is not there yet to be read at once.
 macro_rules! carefully {
-    ($nearest:ident, $both:ident, $format:expr) => {
+    ($nearest:ident, $both:ident, $vector:ty, $format:expr) => {
         /// Finds the nearest hit.
         #[cold]
         #[inline(never)]
-        fn $nearest(line: &Line, start: f64, end: f64) -> Option<Found> {
-            match carefully(line, $format, &Question::Nearest(start..end)) {
+        fn $nearest(
+            sphere: &Sphere<$vector>,
+            ray: &Ray<$vector>,
+            line: &Line,
+            start: f64,
+            end: f64,
+        ) -> Option<Found> {
+            match carefully(sphere, ray, line, $format, &Question::Nearest(start..end)) {
                 Some(Answer::Nearest(found)) => Some(found),
                 _ => None,
             }
@@ -33,8 +45,8 @@ macro_rules! carefully {
         /// Finds both roots, ascending.
         #[cold]
         #[inline(never)]
-        fn $both(line: &Line) -> Option<[f64; 2]> {
-            match carefully(line, $format, &Question::Both) {
+        fn $both(sphere: &Sphere<$vector>, ray: &Ray<$vector>, line: &Line) -> Option<[f64; 2]> {
+            match carefully(sphere, ray, line, $format, &Question::Both) {
                 Some(Answer::Both(roots)) => Some(roots),
                 _ => None,
             }
@@ -42,15 +54,21 @@ macro_rules! carefully {
     };
 }
 
-carefully!(nearest_carefully_f32, both_carefully_f32, Format::F32);
-carefully!(nearest_carefully_f64, both_carefully_f64, Format::F64);
+carefully!(nearest_carefully_f32, both_carefully_f32, Vec3, Format::F32);
+carefully!(nearest_carefully_f64, both_carefully_f64, DVec3, Format::F64);
 
 /// Takes the steps with a bound of the case in turn, until one is certain of the answer.
 ///
 /// The first of them is compiled for each precision, the others once for both.
 #[inline(always)]
-fn carefully(line: &Line, format: Format, question: &Question) -> Option<Answer> {
-    match bounded::chord(*line, format).and_then(|chord| question.ask(&chord)) {
+fn carefully<V: Vector>(
+    sphere: &Sphere<V>,
+    ray: &Ray<V>,
+    line: &Line,
+    format: Format,
+    question: &Question,
+) -> Option<Answer> {
+    match bounded::chord(Line::new(sphere, ray), format).and_then(|chord| question.ask(&chord)) {
         Verdict::Miss => None,
         Verdict::Hit(answer) => Some(answer),
         Verdict::Doubt => in_pairs(line, format, question),
