@@ -1,12 +1,13 @@
-//! Exact arithmetic: sums of products of up to four `f64` as integers of fixed length, and numbers of any exponent.
+//! Exact arithmetic: sums of products of up to four `f64` as integers of fixed length.
 //!
 //! A float is an integer times a power of two, so a sum of products of floats is one too, and its sign can be told for
-//! sure. Every product of four finite `f64` fits in 264 digits of 32 bits (Kulisch's long accumulator), which is why there
+//! sure. Every product of four finite `f64` fits in 132 digits of 64 bits (Kulisch's long accumulator), which is why there
 //! is neither overflow nor underflow here, and no allocation.
 
 use core::cmp::Ordering;
 use core::ops::Range;
 
+use super::product::Product;
 use super::scaling::integer_and_exponent;
 pub(crate) use super::wide::Wide;
 
@@ -14,132 +15,138 @@ pub(crate) use super::wide::Wide;
 mod tests;
 
 /// Bits a digit.
-const DIGIT: i32 = 32;
+const DIGIT: i32 = 64;
 /// The exponent of the lowest digit: below 2⁻⁴²⁹⁶ = (2⁻¹⁰⁷⁴)⁴, and a whole number of digits.
-const LEAST: i32 = -135 * DIGIT;
+const LEAST: i32 = -68 * DIGIT;
 /// Up to 2⁴⁰⁹⁶ = (2¹⁰²⁴)⁴, and two more digits for the sum of many.
-const DIGITS: usize = 135 + 128 + 2;
+const DIGITS: usize = 68 + 64 + 2;
 
-/// A sum of products, exact.
+/// A sum of products, exact: of the positive ones, less that of the negative ones.
 pub(crate) struct Sum {
-    /// Least significant first, each with a sign of its own and room for 2³⁰ additions before a carry is due.
-    digits: [i64; DIGITS],
+    /// Least significant first.
+    positive: [u64; DIGITS],
+    negative: [u64; DIGITS],
     /// Those that may be other than zero.
     used: Range<usize>,
 }
 
-/// The four digits of an integer, least significant first.
-#[expect(clippy::cast_possible_truncation, reason = "each digit is the low half of what is left")]
-fn digits_of(integer: u128) -> [u64; 4] {
-    [0, 32, 64, 96].map(|place| u64::from((integer >> place) as u32))
+/// A factor: a float, or an integer times a power of two.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Factor {
+    negative: bool,
+    /// At most 54 bits.
+    integer: u64,
+    exponent: i32,
+}
+
+impl Factor {
+    pub(crate) const ONE: Self = Self { negative: false, integer: 1, exponent: 0 };
+
+    /// `integer` 2^`exponent`, of at most 54 bits.
+    pub(crate) const fn new(integer: i64, exponent: i32) -> Self {
+        Self { negative: integer < 0, integer: integer.unsigned_abs(), exponent }
+    }
+}
+
+impl From<f64> for Factor {
+    #[inline]
+    fn from(x: f64) -> Self {
+        let (integer, exponent) = integer_and_exponent(x);
+        Self { negative: x.is_sign_negative(), integer, exponent }
+    }
 }
 
 impl Sum {
     pub(crate) const fn zero() -> Self {
-        Self { digits: [0; DIGITS], used: Range { start: DIGITS, end: 0 } }
+        let zero = [0; DIGITS];
+        Self { positive: zero, negative: zero, used: Range { start: DIGITS, end: 0 } }
     }
 
     /// Adds `times` the product of four finite numbers. |`times`| is 1 or 2.
     pub(crate) fn add(&mut self, times: i64, factors: [f64; 4]) {
-        self.add_scaled(times, 0, factors);
+        self.add_factors(times, factors.map(Factor::from));
     }
 
-    /// Adds `times` the product of four finite numbers, times 2^`power`: as a whole, in the range of products of four numbers.
-    pub(crate) fn add_scaled(&mut self, times: i64, power: i32, factors: [f64; 4]) {
-        if factors.contains(&0.0) {
+    /// Adds `times` the product of four factors, which is to be in the range of products of four numbers. |`times`| is 1 or 2.
+    #[inline]
+    pub(crate) fn add_factors(&mut self, times: i64, factors: [Factor; 4]) {
+        let [a, b, c, d] = factors;
+        let product = Product::new(
+            u128::from(a.integer) * u128::from(b.integer),
+            u128::from(c.integer) * u128::from(d.integer),
+        );
+        if product == Product::ZERO {
             return;
         }
-        let mut negative = times < 0;
-        let mut unit = power;
-        let mut integers = [0_u128; 4];
-        for (integer, factor) in integers.iter_mut().zip(factors) {
-            let (mantissa, exponent) = integer_and_exponent(factor);
-            *integer = u128::from(mantissa);
-            unit += exponent;
-            negative ^= factor.is_sign_negative();
-        }
+        let negative = (times < 0) ^ a.negative ^ b.negative ^ c.negative ^ d.negative;
+        let unit = a.exponent
+            + b.exponent
+            + c.exponent
+            + d.exponent
+            + i32::from(times.unsigned_abs() == 2);
         let place = (unit - LEAST).unsigned_abs();
-        let (digit, shift) = ((place / 32) as usize, place % 32);
-        let left = digits_of(integers[0] * integers[1]);
-        let right = digits_of(integers[2] * integers[3]);
-        // The product has at most 212 bits, eight digits with the last one unfinished, and the shift moves that to nine.
-        let mut product = [0_u64; 9];
-        for (i, a) in left.into_iter().enumerate() {
-            let mut carry = 0;
-            for (j, b) in right.into_iter().enumerate() {
-                let sum = a * b + product[i + j] + carry;
-                product[i + j] = sum & 0xffff_ffff;
-                carry = sum >> 32;
+        let (digit, shift) = ((place / 64) as usize, place % 64);
+        // The product has at most 216 bits, and the shift moves that to five digits.
+        let parts = product.shifted(shift);
+        let target = if negative { &mut self.negative } else { &mut self.positive };
+        let mut carry = false;
+        let mut end = digit;
+        for (index, target) in target.iter_mut().enumerate().skip(digit) {
+            let part = parts.get(index - digit).copied().unwrap_or(0);
+            if index - digit >= parts.len() && !carry {
+                break;
             }
-            product[i + 4] = carry;
+            let (sum, first) = target.overflowing_add(part);
+            let (sum, second) = sum.overflowing_add(carry.into());
+            (*target, carry) = (sum, first || second);
+            end = index + 1;
         }
-        // Nine digits of the product, and two more for what the sum of many carries.
-        self.used = self.used.start.min(digit)..self.used.end.max((digit + 11).min(DIGITS));
-        let mut spill = 0;
-        for (target, part) in self.digits[digit..].iter_mut().zip(product) {
-            let shifted = (part << shift) | spill;
-            spill = shifted >> 32;
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "the low half; the high half is carried on"
-            )]
-            let part = i64::from(shifted as u32) * times.abs();
-            *target += if negative { -part } else { part };
-        }
-    }
-
-    /// Carries, so that every digit is in 0..2³², and gives the carry out of the last of those used: negative if the sum is.
-    fn carry(&mut self) -> i64 {
-        let mut carry = 0;
-        for digit in self.digits.get_mut(self.used.clone()).into_iter().flatten() {
-            let sum = *digit + carry;
-            *digit = sum & 0xffff_ffff;
-            carry = sum >> 32;
-        }
-        carry
-    }
-
-    /// The digits used.
-    fn used(&self) -> &[i64] {
-        self.digits.get(self.used.clone()).unwrap_or(&[])
-    }
-
-    /// The value, rounded to a pair with a relative error below 2⁻⁹⁶, and its exponent.
-    pub(crate) fn value(mut self) -> Wide {
-        let negative = self.carry() < 0;
-        if negative {
-            for digit in self.digits.get_mut(self.used.clone()).into_iter().flatten() {
-                *digit = -*digit;
-            }
-            // The digits hold the number modulo 2³²ⁿ, and so does their negative.
-            self.carry();
-        }
-        let Some(top) = self.used().iter().rposition(|digit| *digit != 0) else {
-            return Wide::ZERO;
-        };
-        let top = self.used.start + top;
-        // Four digits: at least 97 bits.
-        let leading = (0..4).fold(0, |leading, below| {
-            let digit = top.checked_sub(below).map_or(0, |index| self.digits[index]);
-            (leading << DIGIT) | u128::from(digit.unsigned_abs())
-        });
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_possible_wrap,
-            reason = "there are 265 digits"
-        )]
-        let unit = LEAST + DIGIT * (top as i32 - 3);
-        let value = Wide::from_integer(leading, unit);
-        if negative { -value } else { value }
+        self.used = self.used.start.min(digit)..self.used.end.max(end);
     }
 
     /// The sign: how the sum compares with 0.
-    pub(crate) fn sign(mut self) -> Ordering {
-        match self.carry() {
-            carry if carry < 0 => Ordering::Less,
-            carry if carry > 0 => Ordering::Greater,
-            _ if self.used().iter().any(|digit| *digit != 0) => Ordering::Greater,
-            _ => Ordering::Equal,
+    pub(crate) fn sign(&self) -> Ordering {
+        // Digits of the same place, the highest first, until two differ.
+        let used = self.used.clone();
+        let digits = |digits: &[u64; DIGITS], index: usize| digits.get(index).copied();
+        used.rev()
+            .map(|index| digits(&self.positive, index).cmp(&digits(&self.negative, index)))
+            .find(|ordering| ordering.is_ne())
+            .unwrap_or(Ordering::Equal)
+    }
+
+    /// The value, rounded to a pair with a relative error below 2⁻⁹⁶, and its exponent.
+    pub(crate) fn value(&self) -> Wide {
+        let (larger, smaller) = match self.sign() {
+            Ordering::Equal => return Wide::ZERO,
+            Ordering::Greater => (&self.positive, &self.negative),
+            Ordering::Less => (&self.negative, &self.positive),
+        };
+        let mut difference = [0; DIGITS];
+        let mut borrow = false;
+        let mut top = 0;
+        for index in self.used.clone() {
+            let (digit, first) = larger[index].overflowing_sub(smaller[index]);
+            let (digit, second) = digit.overflowing_sub(borrow.into());
+            difference[index] = digit;
+            borrow = first || second;
+            if digit != 0 {
+                top = index;
+            }
         }
+        // Three digits, of which at least 129 bits count: 128 of them.
+        let below = |places: usize| top.checked_sub(places).map_or(0, |index| difference[index]);
+        let zeros = below(0).leading_zeros();
+        let leading = u128::from(below(0)) << 64 | u128::from(below(1));
+        let leading = leading << zeros
+            | u128::from(below(2)) >> (64 - zeros).min(63) >> u32::from(zeros == 0);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_possible_wrap,
+            reason = "there are 134 digits"
+        )]
+        let unit = LEAST + DIGIT * (top as i32 - 1) - zeros as i32;
+        let value = Wide::from_integer(leading, unit);
+        if self.sign().is_lt() { -value } else { value }
     }
 }

@@ -113,11 +113,6 @@ pub(crate) fn compensated_dot(a: Triple<f64>, b: Triple<f64>) -> Pair {
 }
 
 impl Pair {
-    #[inline(always)]
-    pub(crate) fn abs(self) -> Self {
-        if self.hi < 0.0 { -self } else { self }
-    }
-
     /// The square root of a positive pair: relative error at most [`ROOT_ERROR`].
     ///
     /// One step of Newton's from the square root of `hi`.

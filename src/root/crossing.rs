@@ -125,6 +125,18 @@ pub(crate) enum Answer {
     Both([f64; 2]),
 }
 
+impl Answer {
+    #[inline(always)]
+    pub(crate) fn nearest(self) -> Option<Found> {
+        if let Self::Nearest(found) = self { Some(found) } else { None }
+    }
+
+    #[inline(always)]
+    pub(crate) fn both(self) -> Option<[f64; 2]> {
+        if let Self::Both(roots) = self { Some(roots) } else { None }
+    }
+}
+
 impl Question {
     #[inline(always)]
     pub(crate) fn ask(&self, crossings: &impl Crossings) -> Verdict<Answer> {

@@ -116,7 +116,7 @@ fn nearest_again(
         }
         Nearest::Miss | Nearest::Doubt => {}
     }
-    nearest_carefully_f32(sphere, ray, line, start.into(), end.into())
+    nearest_carefully_f32(sphere, ray, line, start.into()..end.into())
 }
 
 impl Precision for Vec3 {

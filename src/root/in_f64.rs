@@ -89,8 +89,7 @@ impl Precision for DVec3 {
                 Nearest::Rough { .. } | Nearest::Doubt => {}
             }
         }
-        let found =
-            nearest_carefully_f64(sphere, ray, &Line::new(sphere, ray), range.start, range.end)?;
+        let found = nearest_carefully_f64(&Line::new(sphere, ray), range)?;
         Some(hit(line, found.t, found.point, found.normal))
     }
 
@@ -112,7 +111,7 @@ impl Precision for DVec3 {
                 Both::Doubt => {}
             }
         }
-        both_carefully_f64(sphere, ray, &Line::new(sphere, ray))
+        both_carefully_f64(&Line::new(sphere, ray))
     }
 }
 

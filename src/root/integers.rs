@@ -24,64 +24,127 @@ use crate::arithmetic::wide::Wide;
 /// Of a root, in itself: of a quotient of numbers, or of their sums without cancellation, each known to 2⁻⁹⁶.
 const ROOT_ERROR: f64 = 4096.0 * V;
 
-/// The chord, exact but for the rounding of each number to at least 96 bits.
-struct Chord {
-    a: Wide,
-    h: Wide,
+/// A line and a sphere in integers: every number that they give is exact but for its rounding to at least 96 bits.
+pub(super) enum Exact {
+    Narrow(Narrow),
+    Wide(Sums),
+}
+
+impl Exact {
+    pub(super) fn new(line: &Line) -> Self {
+        Narrow::new(line).map_or_else(|| Self::Wide(Sums::new(line)), Self::Narrow)
+    }
+
+    /// Whether the coordinates span so many digits that only accumulators hold their products.
+    pub(super) fn is_wide(&self) -> bool {
+        matches!(self, Self::Wide(_))
+    }
+
+    /// d·d.
+    fn a(&self) -> Wide {
+        match self {
+            Self::Narrow(narrow) => narrow.a(),
+            Self::Wide(sums) => sums.a(),
+        }
+    }
+
+    /// d·o.
+    fn h(&self) -> Wide {
+        match self {
+            Self::Narrow(narrow) => narrow.h(),
+            Self::Wide(sums) => sums.h(),
+        }
+    }
+
     /// o·o - r².
-    power: Wide,
+    fn power(&self) -> Wide {
+        match self {
+            Self::Narrow(narrow) => narrow.power(),
+            Self::Wide(sums) => sums.power(),
+        }
+    }
+
     /// r² a - |o × d|².
-    discriminant: Wide,
+    fn discriminant(&self) -> Wide {
+        match self {
+            Self::Narrow(narrow) => narrow.discriminant(),
+            Self::Wide(sums) => sums.discriminant(),
+        }
+    }
+
     /// o × d.
-    moment: [Wide; 3],
+    fn moment(&self) -> [Wide; 3] {
+        match self {
+            Self::Narrow(narrow) => narrow.moment(),
+            Self::Wide(sums) => sums.moment(),
+        }
+    }
+
+    /// How the root on that side compares with a number midway between two floats.
+    fn compare_root(&self, line: &Line, side: Side, number: Midpoint) -> Ordering {
+        let narrow = match self {
+            Self::Narrow(narrow) => narrow.quadratic_at(number),
+            Self::Wide(_) => None,
+        };
+        let quadratic = narrow.unwrap_or_else(|| Sums::new(line).quadratic_at(number));
+        if quadratic.is_lt() {
+            // Within the chord.
+            return if side == Side::Near { Ordering::Less } else { Ordering::Greater };
+        }
+        let narrow = match self {
+            Self::Narrow(narrow) => narrow.ahead_of(number),
+            Self::Wide(_) => None,
+        };
+        let ahead = narrow.unwrap_or_else(|| Sums::new(line).ahead_of(number));
+        match (side, quadratic) {
+            // Outside the chord, the number lies before both roots or behind both.
+            (_, Ordering::Greater) => ahead,
+            // At a root: at the near one where the closest approach is still ahead, at the far one where it is past.
+            (Side::Near, _) if ahead.is_ge() => Ordering::Equal,
+            (Side::Far, _) if ahead.is_le() => Ordering::Equal,
+            (Side::Near, _) => Ordering::Less,
+            (Side::Far, _) => Ordering::Greater,
+        }
+    }
+}
+
+/// How the root on that side compares with a number midway between two floats.
+#[cold]
+#[inline(never)]
+pub(super) fn compare_root(line: &Line, side: Side, number: Midpoint) -> Ordering {
+    Exact::new(line).compare_root(line, side, number)
 }
 
 /// The chord, and what it belongs to.
 pub(super) struct InIntegers<'a> {
     line: &'a Line,
     format: Format,
-    chord: Chord,
+    exact: Exact,
+    a: Wide,
+    h: Wide,
     half_chord: Wide,
 }
 
 /// Takes the chord of a valid line. It is never in doubt.
-pub(super) fn chord(line: &Line, format: Format) -> Verdict<InIntegers<'_>> {
-    let chord = match Narrow::new(line) {
-        Some(narrow) => narrow.chord(),
-        None => Sums::new(line).chord(),
-    };
-    if chord.discriminant.is_negative() {
+pub(super) fn chord(line: &Line, exact: Exact, format: Format) -> Verdict<InIntegers<'_>> {
+    let discriminant = exact.discriminant();
+    if discriminant.is_negative() {
         return Verdict::Miss;
     }
-    let half_chord = chord.discriminant.sqrt();
-    Verdict::Hit(InIntegers { line, format, chord, half_chord })
-}
-
-/// How the root on that side compares with a number midway between two floats.
-pub(super) fn compare_root(line: &Line, side: Side, number: Midpoint) -> Ordering {
-    let signs = Narrow::new(line).and_then(|narrow| narrow.signs_at(number));
-    let (quadratic, ahead) = signs.unwrap_or_else(|| Sums::new(line).signs_at(number));
-    match (side, quadratic) {
-        // Outside the chord, the number lies before both roots or behind both.
-        (_, Ordering::Greater) => ahead,
-        // At a root: at the near one where the closest approach is still ahead, at the far one where it is past.
-        (Side::Near, Ordering::Equal) if ahead.is_ge() => Ordering::Equal,
-        (Side::Far, Ordering::Equal) if ahead.is_le() => Ordering::Equal,
-        // Within the chord.
-        (Side::Near, _) => Ordering::Less,
-        (Side::Far, _) => Ordering::Greater,
-    }
+    let half_chord = discriminant.sqrt();
+    let (a, h) = (exact.a(), exact.h());
+    Verdict::Hit(InIntegers { line, format, exact, a, h, half_chord })
 }
 
 impl InIntegers<'_> {
     fn estimate(&self, side: Side) -> Wide {
-        let Chord { a, h, power, .. } = self.chord;
-        if self.half_chord.is_zero() {
+        let Self { a, h, half_chord, .. } = *self;
+        if half_chord.is_zero() {
             return h / a;
         }
         // The root that does not cancel, and the other one from the product of the roots, power / a.
-        let sum = if h.is_negative() { h + -self.half_chord } else { h + self.half_chord };
-        if (side == Side::Near) == h.is_negative() { sum / a } else { power / sum }
+        let sum = if h.is_negative() { h + -half_chord } else { h + half_chord };
+        if (side == Side::Near) == h.is_negative() { sum / a } else { self.exact.power() / sum }
     }
 }
 
@@ -90,7 +153,7 @@ impl Crossings for InIntegers<'_> {
         /// Where a pair loses nothing.
         const MIDDLE: i32 = 900;
         let exact = self.estimate(side);
-        let compare = |number| compare_root(self.line, side, number);
+        let compare = |number| self.exact.compare_root(self.line, side, number);
         let t = if exact.is_zero() {
             0.0
         } else if exact.exponent().abs() < MIDDLE {
@@ -115,12 +178,12 @@ impl Crossings for InIntegers<'_> {
         // In units of the radius and of the direction's length, which bound half the chord and the moment.
         let length_exponent = exponent(radius);
         let unit = -(length_exponent + direction_exponent);
-        let [x, y, z] = self.chord.moment.map(|coordinate| coordinate.scaled(unit));
+        let [x, y, z] = self.exact.moment().map(|coordinate| coordinate.scaled(unit));
         let crossing = Crossing {
             d,
             radius: scale(radius, -length_exponent),
             length_exponent,
-            a: self.chord.a.scaled(-2 * direction_exponent),
+            a: self.a.scaled(-2 * direction_exponent),
             moment: Triple { x, y, z },
             half_chord: self.half_chord.scaled(unit),
             offset_error: 0.0,

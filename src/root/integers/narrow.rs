@@ -2,7 +2,6 @@
 
 use core::cmp::Ordering;
 
-use super::Chord;
 use crate::arithmetic::product::{Product, sign_of_sum};
 use crate::arithmetic::scaling::integer_and_exponent;
 use crate::arithmetic::wide::Wide;
@@ -14,7 +13,7 @@ use crate::root::format::Midpoint;
 const BITS: i32 = 61;
 
 /// A line and a sphere whose lengths are integers in units of one power of two, and whose directions in units of another.
-pub(super) struct Narrow {
+pub(in crate::root) struct Narrow {
     o: [i64; 3],
     d: [i64; 3],
     radius: i64,
@@ -23,27 +22,43 @@ pub(super) struct Narrow {
 }
 
 /// The unit and the integers of numbers that span at most [`BITS`] places.
+#[inline(always)]
 fn integers<const N: usize>(numbers: [f64; N]) -> Option<([i64; N], i32)> {
-    // Without the zeros at its end, a number has a unit of its own.
-    let parts = numbers.map(|number| {
+    let mut unit = i32::MAX;
+    let mut top = i32::MIN;
+    for number in numbers {
+        // Without the zeros at its end, a number has a unit of its own.
         let (integer, exponent) = integer_and_exponent(number);
-        let zeros = integer.trailing_zeros() % 64;
-        (integer >> zeros, exponent + signed(zeros))
-    });
-    let unit = parts.iter().filter(|part| part.0 != 0).map(|part| part.1).min().unwrap_or(0);
-    let mut integers = [0; N];
-    for ((integer, number), (magnitude, exponent)) in integers.iter_mut().zip(numbers).zip(parts) {
-        if magnitude != 0 {
-            let places = signed(u64::BITS - magnitude.leading_zeros());
-            let shift = exponent - unit;
-            if places + shift > BITS {
-                return None;
-            }
-            let magnitude = i64::try_from(magnitude << shift).ok()?;
-            *integer = if number < 0.0 { -magnitude } else { magnitude };
+        if integer != 0 {
+            unit = unit.min(exponent + signed(integer.trailing_zeros()));
+            top = top.max(exponent + signed(u64::BITS - integer.leading_zeros()));
         }
     }
-    Some((integers, unit))
+    if unit == i32::MAX {
+        return Some(([0; N], 0));
+    }
+    if top - unit > BITS {
+        return None;
+    }
+    Some((numbers.map(|number| integer_in(number, unit)), unit))
+}
+
+/// A number that is an integer of at most 61 bits in that unit.
+#[inline(always)]
+fn integer_in(number: f64, unit: i32) -> i64 {
+    let (integer, exponent) = integer_and_exponent(number);
+    let shift = exponent - unit;
+    // What is shifted out are zeros.
+    let magnitude = if integer == 0 {
+        0
+    } else if shift < 0 {
+        integer >> -shift
+    } else {
+        integer << shift
+    };
+    #[expect(clippy::cast_possible_wrap, reason = "at most 61 bits")]
+    let magnitude = magnitude as i64;
+    if number < 0.0 { -magnitude } else { magnitude }
 }
 
 #[expect(clippy::cast_possible_wrap, reason = "at most 64")]
@@ -75,34 +90,50 @@ impl Narrow {
         Some(Self { o, d, radius, length_exponent, direction_exponent })
     }
 
-    pub(super) fn chord(&self) -> Chord {
-        let Self { o, d, radius, length_exponent, direction_exponent } = *self;
-        let a = dot(d, d);
-        let radius_squared = product(radius, radius);
-        let moment =
-            [(1, 2), (2, 0), (0, 1)].map(|(j, k)| product(o[j], d[k]) - product(o[k], d[j]));
-        let a_radius_squared = Product::new(a.unsigned_abs(), radius_squared.unsigned_abs());
-        let [x, y, z] = moment.map(Product::square);
-        let moment_squared = x.plus(y).plus(z);
+    /// d·d.
+    pub(super) fn a(&self) -> Wide {
+        wide(dot(self.d, self.d), 2 * self.direction_exponent)
+    }
 
-        let unit = length_exponent + direction_exponent;
-        let discriminant = if a_radius_squared < moment_squared {
-            -moment_squared.minus(a_radius_squared).to_wide(2 * unit)
+    /// d·o.
+    pub(super) fn h(&self) -> Wide {
+        wide(dot(self.o, self.d), self.length_exponent + self.direction_exponent)
+    }
+
+    /// o·o - r².
+    pub(super) fn power(&self) -> Wide {
+        let power = dot(self.o, self.o) - product(self.radius, self.radius);
+        wide(power, 2 * self.length_exponent)
+    }
+
+    fn integer_moment(&self) -> [i128; 3] {
+        let Self { o, d, .. } = self;
+        [(1, 2), (2, 0), (0, 1)].map(|(j, k)| product(o[j], d[k]) - product(o[k], d[j]))
+    }
+
+    /// o × d.
+    pub(super) fn moment(&self) -> [Wide; 3] {
+        let unit = self.length_exponent + self.direction_exponent;
+        self.integer_moment().map(|coordinate| wide(coordinate, unit))
+    }
+
+    /// r² (d·d) - |o × d|².
+    pub(super) fn discriminant(&self) -> Wide {
+        let a = dot(self.d, self.d);
+        let radius_squared = product(self.radius, self.radius);
+        let a_radius_squared = Product::new(a.unsigned_abs(), radius_squared.unsigned_abs());
+        let [x, y, z] = self.integer_moment().map(Product::square);
+        let moment_squared = x.plus(y).plus(z);
+        let unit = 2 * (self.length_exponent + self.direction_exponent);
+        if a_radius_squared < moment_squared {
+            -moment_squared.minus(a_radius_squared).to_wide(unit)
         } else {
-            a_radius_squared.minus(moment_squared).to_wide(2 * unit)
-        };
-        Chord {
-            a: wide(a, 2 * direction_exponent),
-            h: wide(dot(o, d), unit),
-            power: wide(dot(o, o) - radius_squared, 2 * length_exponent),
-            discriminant,
-            moment: moment.map(|coordinate| wide(coordinate, unit)),
+            a_radius_squared.minus(moment_squared).to_wide(unit)
         }
     }
 
-    /// The signs of the quadratic at a number, |m d - o|² - r², and of what is from there to the closest approach, h - a m.
-    /// `None` where an integer has no room for m d - o.
-    pub(super) fn signs_at(&self, number: Midpoint) -> Option<(Ordering, Ordering)> {
+    /// m d - o at a number, and the radius in its unit. `None` where an integer has no room for these.
+    fn offset_at(&self, number: Midpoint) -> Option<([i128; 3], i128)> {
         /// So that the sum of two is below 2¹²⁵, and that of three of their squares below 2²⁵².
         const BITS: u32 = 124;
         let shift = number.exponent + self.direction_exponent - self.length_exponent;
@@ -117,15 +148,24 @@ impl Narrow {
             let md = shifted(i128::from(number.integer) * i128::from(d), left)?;
             *w = md - shifted(o.into(), right)?;
         }
-        let radius = shifted(self.radius.into(), right)?;
+        Some((w, shifted(self.radius.into(), right)?))
+    }
 
+    /// The sign of the quadratic at a number, |m d - o|² - r². `None` where an integer has no room for it.
+    pub(super) fn quadratic_at(&self, number: Midpoint) -> Option<Ordering> {
+        let (w, radius) = self.offset_at(number)?;
         let [x, y, z] = w.map(Product::square);
-        let quadratic = x.plus(y).plus(z).cmp(&Product::square(radius));
+        Some(x.plus(y).plus(z).cmp(&Product::square(radius)))
+    }
+
+    /// The sign of what is from a number to the closest approach, h - a m. `None` where an integer has no room for it.
+    pub(super) fn ahead_of(&self, number: Midpoint) -> Option<Ordering> {
+        let (w, _) = self.offset_at(number)?;
         // -d·(m d - o).
-        let [x, y, z] = [0, 1, 2].map(|axis| {
+        let terms = [0, 1, 2].map(|axis| {
             let negative = (self.d[axis] < 0) == (w[axis] < 0);
             (negative, Product::new(self.d[axis].unsigned_abs().into(), w[axis].unsigned_abs()))
         });
-        Some((quadratic, sign_of_sum([x, y, z])))
+        Some(sign_of_sum(terms))
     }
 }

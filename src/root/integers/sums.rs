@@ -2,15 +2,14 @@
 
 use core::cmp::Ordering;
 
-use super::Chord;
-use crate::arithmetic::exact::Sum;
+use crate::arithmetic::exact::{Factor, Sum};
 use crate::arithmetic::pair::Pair;
 use crate::arithmetic::wide::Wide;
 use crate::root::crossing::Line;
 use crate::root::format::Midpoint;
 
 /// A line and a sphere of any finite coordinates.
-pub(super) struct Sums {
+pub(in crate::root) struct Sums {
     /// c - p: each coordinate the exact sum of two numbers.
     o: [[f64; 2]; 3],
     d: [f64; 3],
@@ -30,24 +29,8 @@ impl Sums {
         Self { o, d: line.direction.to_array(), radius: line.radius }
     }
 
-    pub(super) fn chord(&self) -> Chord {
-        Chord {
-            a: self.a(),
-            h: self.h(),
-            power: self.power(),
-            discriminant: self.discriminant(),
-            moment: self.moment_terms().map(|coordinate| {
-                let mut sum = Sum::zero();
-                for [o, d] in coordinate {
-                    sum.add(1, [o, d, 1.0, 1.0]);
-                }
-                sum.value()
-            }),
-        }
-    }
-
     /// d·d.
-    fn a(&self) -> Wide {
+    pub(super) fn a(&self) -> Wide {
         let mut sum = Sum::zero();
         for d in self.d {
             sum.add(1, [d, d, 1.0, 1.0]);
@@ -56,7 +39,7 @@ impl Sums {
     }
 
     /// d·o.
-    fn h(&self) -> Wide {
+    pub(super) fn h(&self) -> Wide {
         let mut sum = Sum::zero();
         for (o, d) in self.o.into_iter().zip(self.d) {
             for o in o {
@@ -67,7 +50,7 @@ impl Sums {
     }
 
     /// o·o - r².
-    fn power(&self) -> Wide {
+    pub(super) fn power(&self) -> Wide {
         let mut sum = Sum::zero();
         for [hi, lo] in self.o {
             sum.add(1, [hi, hi, 1.0, 1.0]);
@@ -85,8 +68,19 @@ impl Sums {
             .map(|(j, k)| [[o[j][0], d[k]], [o[j][1], d[k]], [-o[k][0], d[j]], [-o[k][1], d[j]]])
     }
 
+    /// o × d.
+    pub(super) fn moment(&self) -> [Wide; 3] {
+        self.moment_terms().map(|coordinate| {
+            let mut sum = Sum::zero();
+            for [o, d] in coordinate {
+                sum.add(1, [o, d, 1.0, 1.0]);
+            }
+            sum.value()
+        })
+    }
+
     /// r² (d·d) - |o × d|².
-    fn discriminant(&self) -> Wide {
+    pub(super) fn discriminant(&self) -> Wide {
         let mut sum = Sum::zero();
         for d in self.d {
             sum.add(1, [self.radius, self.radius, d, d]);
@@ -102,33 +96,36 @@ impl Sums {
         sum.value()
     }
 
-    /// The signs of the quadratic at a number, |m d - o|² - r², and of what is from there to the closest approach, h - a m.
-    pub(super) fn signs_at(&self, number: Midpoint) -> (Ordering, Ordering) {
-        let Midpoint { integer, exponent } = number;
-        // An odd integer of 54 bits: two floats.
-        #[expect(clippy::cast_precision_loss, reason = "an even number of 54 bits is exact")]
-        let terms = [(integer - integer.signum()) as f64, integer.signum() as f64];
-        let mut quadratic = Sum::zero();
-        quadratic.add(-1, [self.radius, self.radius, 1.0, 1.0]);
-        let mut ahead = Sum::zero();
+    /// The sign of the quadratic at a number, |m d - o|² - r².
+    pub(super) fn quadratic_at(&self, number: Midpoint) -> Ordering {
+        const ONE: Factor = Factor::ONE;
+        let m = Factor::new(number.integer, number.exponent);
+        let mut sum = Sum::zero();
+        sum.add(-1, [self.radius, self.radius, 1.0, 1.0]);
         for (o, d) in self.o.into_iter().zip(self.d) {
-            quadratic.add_scaled(1, 2 * exponent, [terms[0], d, terms[0], d]);
-            quadratic.add_scaled(2, 2 * exponent, [terms[0], d, terms[1], d]);
-            quadratic.add_scaled(1, 2 * exponent, [terms[1], d, terms[1], d]);
-            for o in o {
-                ahead.add(1, [o, d, 1.0, 1.0]);
-                for m in terms {
-                    quadratic.add_scaled(-2, exponent, [m, d, o, 1.0]);
-                }
-            }
-            for m in terms {
-                ahead.add_scaled(-1, exponent, [d, d, m, 1.0]);
-            }
-            let [hi, lo] = o;
-            quadratic.add(1, [hi, hi, 1.0, 1.0]);
-            quadratic.add(2, [hi, lo, 1.0, 1.0]);
-            quadratic.add(1, [lo, lo, 1.0, 1.0]);
+            let [hi, lo] = o.map(Factor::from);
+            let d = Factor::from(d);
+            sum.add_factors(1, [m, d, m, d]);
+            sum.add_factors(-2, [m, d, hi, ONE]);
+            sum.add_factors(-2, [m, d, lo, ONE]);
+            sum.add_factors(1, [hi, hi, ONE, ONE]);
+            sum.add_factors(2, [hi, lo, ONE, ONE]);
+            sum.add_factors(1, [lo, lo, ONE, ONE]);
         }
-        (quadratic.sign(), ahead.sign())
+        sum.sign()
+    }
+
+    /// The sign of what is from a number to the closest approach, h - a m.
+    pub(super) fn ahead_of(&self, number: Midpoint) -> Ordering {
+        let m = Factor::new(number.integer, number.exponent);
+        let mut sum = Sum::zero();
+        for (o, d) in self.o.into_iter().zip(self.d) {
+            for o in o {
+                sum.add(1, [o, d, 1.0, 1.0]);
+            }
+            let d = Factor::from(d);
+            sum.add_factors(-1, [d, d, m, Factor::ONE]);
+        }
+        sum.sign()
     }
 }
