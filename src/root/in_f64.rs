@@ -5,12 +5,15 @@ use core::ops::Range;
 use glam::DVec3;
 
 use super::chord::{Chord, Derivation};
-use super::crossing::Line;
+use super::crossing::{Found, Line, Side};
+use super::format::Format;
 use super::halves::{self, Correction};
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully_f64, nearest_carefully_f64};
+use super::{both_carefully_f64, integers, nearest_carefully_f64, surface};
+use crate::algebraic::Quadratic;
 use crate::arithmetic::number::Triple;
+use crate::float::sqrt;
 use crate::{Hit, Ray, Sphere};
 
 /// Whether a square, a or the larger of o·o and r², is between 2⁻⁴⁸⁰ and 2⁴⁸⁰: then no product of two of them overflows, and
@@ -61,6 +64,57 @@ impl Setting {
     }
 }
 
+/// The nearest hit where the plain step is in doubt: from close to the surface by a finer power.
+#[cold]
+#[inline(never)]
+fn nearest_again(line: &Line, range: Range<f64>) -> Option<Found> {
+    from_the_surface(*line, &range).unwrap_or_else(|| nearest_carefully_f64(line, range))
+}
+
+/// The nearest hit of a line that starts close to the surface, or that there is none; `None` where that is not certain.
+#[inline(always)]
+#[expect(clippy::option_option, reason = "a certain miss is an answer, too")]
+fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
+    let radius_squared = line.radius * line.radius.abs();
+    let setting = Setting { line, o: line.center - line.origin, radius_squared };
+    let chord = setting.chord::<Quadratic>()?;
+    let half_chord = sqrt(chord.discriminant);
+    let larger = chord.distance_squared.max(radius_squared);
+    if !surface::is_close(&chord, half_chord, larger) {
+        return None;
+    }
+    let o = line.o();
+    let power = surface::power(o, line.radius);
+    // As certain as rounding needs, too.
+    if power.1 > f64::EPSILON / 1024.0 * power.0.hi.abs() {
+        return None;
+    }
+    let (is_outside, is_behind) = (power.0.hi > 0.0, chord.h < 0.0);
+    if is_outside && is_behind {
+        return Some(None);
+    }
+    if !is_outside && !is_behind {
+        // The far root, where nothing cancels.
+        let t = (chord.h + half_chord) / chord.a;
+        let size = radius_squared * larger;
+        let corrected = setting.correction(&chord).correct_surely(t, half_chord, size)?;
+        let t = corrected.t.hi;
+        let found = Found { t, point: corrected.point(), normal: corrected.offset() / line.radius };
+        return Some(range.contains(&t).then_some(found));
+    }
+    let root = surface::small_root(o, line.direction.into(), &chord, half_chord, power);
+    let side = if is_outside { Side::Near } else { Side::Far };
+    let t = Format::F64.round(root.t, root.relative_error, |midpoint| {
+        integers::compare_root(&{ line }, side, midpoint)
+    })?;
+    if t < range.start && is_outside {
+        // The other root may be in the range.
+        return None;
+    }
+    let is_ahead = t > 0.0 && range.contains(&t);
+    Some(is_ahead.then(|| surface::hit(line, o, root.t, t)))
+}
+
 impl Precision for DVec3 {
     #[inline(always)]
     fn intersect<D: Derivation>(
@@ -89,7 +143,7 @@ impl Precision for DVec3 {
                 Nearest::Rough { .. } | Nearest::Doubt => {}
             }
         }
-        let found = nearest_carefully_f64(&Line::new(sphere, ray), range)?;
+        let found = nearest_again(&Line::new(sphere, ray), range)?;
         Some(hit(line, found.t, found.point, found.normal))
     }
 

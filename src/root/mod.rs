@@ -13,6 +13,7 @@ mod integers;
 mod pairs;
 mod plain;
 pub(crate) mod precision;
+mod surface;
 
 use core::ops::Range;
 

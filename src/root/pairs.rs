@@ -21,6 +21,7 @@ use glam::DVec3;
 use super::crossing::{Crossings, Estimate, Found, Line, Root, Side, Verdict};
 use super::format::Format;
 use super::integers;
+use super::surface::power;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
     COMPENSATED_DOT_ERROR, Pair, QUOTIENT_ERROR, ROOT_ERROR, SUM_ERROR, U, V, compensated_dot,
@@ -206,7 +207,7 @@ impl InPairs<'_> {
             return Some(Estimate { t: sum / a, relative_error });
         }
         // That sum cancels; the product of the roots is power / a.
-        let (power, power_error) = self.scaled.power();
+        let (power, power_error) = power(self.scaled.o, self.scaled.radius);
         let power_relative_error = power_error / power.hi.abs();
         (power_relative_error < 0.5).then(|| Estimate {
             t: power / other,
@@ -234,56 +235,6 @@ impl Crossings for InPairs<'_> {
         let Self { a, moment, half_chord, .. } = *self;
         let crossing = Crossing { d, radius, length_exponent, a, moment, half_chord, offset_error };
         crossing.hit(self.line, self.format, side, root)
-    }
-}
-
-impl Scaled {
-    /// o·o - r², and how far off that may be.
-    ///
-    /// First in pairs: what is rounded in o·o is 8 v, in 2 o·o.lo 6 v, the square of o.lo 1 v, and three additions 5, 7 and 9 v,
-    /// each of m. Where that is much of the power, what cancels is added up by two sums whose errors are kept: of the leading
-    /// terms, and of the at most 10 u m in the low parts and errors of these. The rest, at most 93 v m, is added up plainly, and
-    /// errs by 1,400 u³ m.
-    pub(super) fn power(&self) -> (Pair, f64) {
-        const ERROR: f64 = 40.0 * V;
-        const CLOSE_ERROR: f64 = 1500.0 * U * V;
-        const CLOSE: f64 = 1.0 / 1_073_741_824.0; // 2^-30
-
-        let (o, o_low) = (Triple::from(self.o_high()), Triple::from(self.o_low()));
-        let radius_squared = two_product(self.radius, self.radius);
-        let distance_squared = compensated_dot(o, o);
-        let larger = distance_squared.hi.max(radius_squared.hi);
-        let difference = two_difference(distance_squared.hi, radius_squared.hi);
-        let low = (distance_squared.lo - radius_squared.lo) + 2.0 * o.dot(o_low);
-        let power = fast_two_sum(difference.hi, difference.lo + low);
-        if power.hi.abs() > CLOSE * larger {
-            return (power, ERROR * larger);
-        }
-
-        let Triple { x, y, z } = o.map(|o| two_product(o, o));
-        let cross = o.zip(o_low, |o, low| two_product(2.0 * o, low));
-        let xy = two_sum(x.hi, y.hi);
-        let xyz = two_sum(xy.hi, z.hi);
-        let leading = two_difference(xyz.hi, radius_squared.hi);
-        let terms = [
-            y.lo,
-            z.lo,
-            -radius_squared.lo,
-            xy.lo,
-            xyz.lo,
-            leading.lo,
-            cross.x.hi,
-            cross.y.hi,
-            cross.z.hi,
-        ];
-        let (low, rest) = terms.into_iter().fold((x.lo, 0.0), |(sum, rest), term| {
-            let sum = two_sum(sum, term);
-            (sum.hi, rest + sum.lo)
-        });
-        let rest = rest + ((cross.x.lo + cross.y.lo) + (cross.z.lo + o_low.dot(o_low)));
-        let sum = two_sum(leading.hi, low);
-        let power = two_sum(sum.hi, sum.lo + rest);
-        (power, CLOSE_ERROR * larger + 2.0 * V * power.hi.abs())
     }
 }
 

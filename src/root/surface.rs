@@ -1,0 +1,128 @@
+//! From close to the surface, in `f64`: the small root from a power in three floats.
+//!
+//! There nearly all of the power o·o - r² cancels, and nothing else does: the discriminant is nearly h². The small root solves
+//! t (2 h - a t) = power, and is taken from that where a |power| < h² / 16, so that s, half the chord, is more than 0.96 |h|, and
+//! 2 s² > 2⁻¹⁶ a m. A root by the bounds of the plain step, but with this power, errs by e < 2⁻³³ of itself. One step of Newton's
+//! leaves, of t: what the power errs by, as a part of itself; of the compensated a and h, 32 v √(a m) / 2 s < 2⁻⁹⁰, and a few v for
+//! the rest; e² a t / 2 s < 2⁻⁷¹ for the curvature; and for the slope, e times its error, 4 u √(a m) / s: < 2⁻⁷⁵.
+
+use glam::DVec3;
+
+use super::chord::Chord;
+use super::crossing::{Estimate, Found, Line};
+use crate::arithmetic::number::Triple;
+use crate::arithmetic::pair::{
+    Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum,
+};
+
+/// The least 2 s², in a m.
+const CLEAR: f64 = 1.0 / 65536.0;
+
+/// Of the root, as a part of itself, besides what the power brings with it: 2⁻⁷⁰.
+const ROOT_ERROR: f64 = U / 131_072.0;
+
+/// o·o - r², and how far off that may be.
+///
+/// First in pairs: what is rounded in o·o is 8 v, in 2 o·o.lo 6 v, the square of o.lo 1 v, and three additions 5, 7 and 9 v,
+/// each of m. Where that is much of the power, what cancels is added up by two sums whose errors are kept: of the leading
+/// terms, and of the at most 10 u m in the low parts and errors of these. The rest, at most 93 v m, is added up plainly, and
+/// errs by 1,400 u³ m.
+#[inline(always)]
+pub(super) fn power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
+    const ERROR: f64 = 40.0 * V;
+    const CLOSE_ERROR: f64 = 1500.0 * U * V;
+    const CLOSE: f64 = 1.0 / 1_073_741_824.0; // 2^-30
+
+    let (o, o_low) = (exact_o.map(|o| o.hi), exact_o.map(|o| o.lo));
+    let radius_squared = two_product(radius, radius);
+    let distance_squared = compensated_dot(o, o);
+    let larger = distance_squared.hi.max(radius_squared.hi);
+    let difference = two_difference(distance_squared.hi, radius_squared.hi);
+    let low = (distance_squared.lo - radius_squared.lo) + 2.0 * o.dot(o_low);
+    let power = fast_two_sum(difference.hi, difference.lo + low);
+    if power.hi.abs() > CLOSE * larger {
+        return (power, ERROR * larger);
+    }
+
+    let Triple { x, y, z } = o.map(|o| two_product(o, o));
+    let cross = o.zip(o_low, |o, low| two_product(2.0 * o, low));
+    let xy = two_sum(x.hi, y.hi);
+    let xyz = two_sum(xy.hi, z.hi);
+    let leading = two_difference(xyz.hi, radius_squared.hi);
+    let terms = [
+        y.lo,
+        z.lo,
+        -radius_squared.lo,
+        xy.lo,
+        xyz.lo,
+        leading.lo,
+        cross.x.hi,
+        cross.y.hi,
+        cross.z.hi,
+    ];
+    let (low, rest) = terms.into_iter().fold((x.lo, 0.0), |(sum, rest), term| {
+        let sum = two_sum(sum, term);
+        (sum.hi, rest + sum.lo)
+    });
+    let rest = rest + ((cross.x.lo + cross.y.lo) + (cross.z.lo + o_low.dot(o_low)));
+    let sum = two_sum(leading.hi, low);
+    let power = two_sum(sum.hi, sum.lo + rest);
+    (power, CLOSE_ERROR * larger + 2.0 * V * power.hi.abs())
+}
+
+/// Whether a line starts close enough to the surface.
+#[inline(always)]
+pub(super) fn is_close(chord: &Chord<f64>, half_chord: f64, larger: f64) -> bool {
+    let Chord { a, h, power, .. } = *chord;
+    let a_larger = a * larger;
+    // With a thousandth of the square to spare for what the plain power errs by.
+    a * power.abs() < h * h * (1.0 / 17.0) && 2.0 * half_chord * half_chord > CLEAR * a_larger
+}
+
+/// The small root, from a power whose sign is certain.
+#[inline(always)]
+pub(super) fn small_root(
+    o: Triple<Pair>,
+    d: Triple<f64>,
+    chord: &Chord<f64>,
+    half_chord: f64,
+    (power, power_error): (Pair, f64),
+) -> Estimate {
+    let sum = if chord.h < 0.0 { chord.h - half_chord } else { chord.h + half_chord };
+    let t = power.hi / sum;
+    let a = compensated_dot(d, d);
+    let h = compensated_dot(d, o.map(|o| o.hi));
+    let h_low = h.lo + d.dot(o.map(|o| o.lo));
+
+    // power - t (2 h - a t), over the slope 2 (h - a t).
+    let at = two_product(a.hi, t);
+    let slope = two_difference(2.0 * h.hi, at.hi);
+    let slope_low = slope.lo + (2.0 * h_low - (at.lo + a.lo * t));
+    let product = two_product(slope.hi, t);
+    let residual = (power.hi - product.hi) + (power.lo - (product.lo + slope_low * t));
+    let correction = residual / (slope.hi - at.hi);
+    Estimate {
+        t: fast_two_sum(t, correction),
+        relative_error: power_error / power.hi.abs() + ROOT_ERROR,
+    }
+}
+
+/// The hit at the small root.
+///
+/// The point is off by what t and the products of its low part are, 2⁻⁷⁰ of the distance travelled, and that is at most a
+/// seventeenth of the radius.
+#[inline(always)]
+pub(super) fn hit(line: Line, o: Triple<Pair>, root: Pair, t: f64) -> Found {
+    let d = Triple::from(line.direction);
+    let step = d.map(|d| {
+        let product = two_product(root.hi, d);
+        Pair { hi: product.hi, lo: product.lo + root.lo * d }
+    });
+    let sum = |start: Pair, step: Pair| {
+        let sum = two_sum(start.hi, step.hi);
+        sum.hi + (sum.lo + (start.lo + step.lo))
+    };
+    let point = Triple::from(line.origin).zip(step, |p, step| sum(p.into(), step));
+    let offset = o.zip(step, |o, step| sum(-o, step));
+    Found { t, point: point.into(), normal: DVec3::from(offset) / line.radius }
+}
