@@ -120,7 +120,7 @@ fn methods_f32() -> Vec<Method<Vec3>> {
 }
 
 fn main() -> io::Result<()> {
-    let arguments = Arguments::read();
+    let arguments = Arguments::read("speed_vs_error");
     if arguments.prices { prices(arguments.effort) } else { speed_vs_error(arguments) }
 }
 

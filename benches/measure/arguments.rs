@@ -48,15 +48,16 @@ impl Effort {
 }
 
 impl Arguments {
-    /// Reads the arguments. `cargo bench` gives the same to every program: what only criterion knows is not for this one.
-    pub fn read() -> Self {
-        Self::parse().unwrap_or_else(|error| {
+    /// Reads the arguments of a program, and ends it where they ask for other benchmarks.
+    pub fn read(program: &str) -> Self {
+        Self::parse(program).unwrap_or_else(|error| {
             eprintln!("error: {error}");
             process::exit(2)
         })
     }
 
-    fn parse() -> Result<Self, lexopt::Error> {
+    /// `cargo bench` gives every program the same arguments: what only criterion knows is not for this one.
+    fn parse(program: &str) -> Result<Self, lexopt::Error> {
         let mut arguments = Self { effort: Effort::Usual, prices: false, refresh: false };
         let mut parser = Parser::from_env();
         while let Some(argument) = parser.next()? {
@@ -67,6 +68,8 @@ impl Arguments {
                 Arg::Long("refresh") => arguments.refresh = true,
                 // What cargo adds by itself.
                 Arg::Long("bench") => {}
+                Arg::Value(name) if program.contains(&*name.to_string_lossy()) => {}
+                Arg::Value(_) => process::exit(0),
                 other => eprintln!("not for this report: {}", other.unexpected()),
             }
         }

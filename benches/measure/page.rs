@@ -1,6 +1,6 @@
 //! The page that every run of the benches ends with: what was measured, and where the reports lie.
 //!
-//! `cargo bench` runs one program after the other. Each leaves its part of the page beside its report, and prints the whole.
+//! `cargo bench` runs one program after the other. Each ends with its part of the page; the last, `summary`, prints them all.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,10 @@ use super::arguments::Effort;
 use super::conditions;
 
 /// The programs in the order of interest.
-const PROGRAMS: [&str; 5] = ["speed_vs_error", "speed", "spheres", "peers", "intersect"];
+const PROGRAMS: [&str; 3] = ["speed_vs_error", "spheres", "intersect"];
+
+/// The file of a program's part.
+const PART: &str = "page.md";
 
 /// Parts older than this are of another run.
 const ONE_RUN: Duration = Duration::from_secs(15 * 60);
@@ -21,33 +24,32 @@ pub fn directory(program: &str) -> PathBuf {
     target.parent().unwrap_or(target).join(program)
 }
 
-/// Leaves a program's part of the page, and prints the page.
+/// Leaves a program's part of the page beside its reports, and prints it.
 pub fn finish(program: &str, effort: Effort, part: &str) -> std::io::Result<()> {
     if effort == Effort::Test {
         println!("{program}: each once, untimed");
         return Ok(());
     }
     fs::create_dir_all(directory(program))?;
-    fs::write(directory(program).join("page.md"), part)?;
-    print();
+    fs::write(directory(program).join(PART), part)?;
+    print(&[program]);
     Ok(())
 }
 
 /// Prints the parts of all programs that ran lately.
-pub fn print() {
+pub fn print_all() {
+    print(&PROGRAMS);
+}
+
+fn print(programs: &[&str]) {
     let rule = "=".repeat(100);
     println!("\n{rule}\nMeasured on {}", conditions::line());
-    for program in PROGRAMS {
-        let file = directory(program).join("page.md");
+    for program in programs {
+        let file = directory(program).join(PART);
         let age = fs::metadata(&file).and_then(|file| file.modified()).ok();
         let age = age.and_then(|written| written.elapsed().ok());
-        if let Some(age) = age.filter(|&age| age < ONE_RUN) {
-            let before = match age.as_secs() / 60 {
-                0 => String::new(),
-                minutes => format!(", {minutes} min ago"),
-            };
-            println!("\n--- {program}{before}\n");
-            print!("{}", fs::read_to_string(&file).unwrap_or_default());
+        if age.is_some_and(|age| age < ONE_RUN) {
+            println!("\n{}", fs::read_to_string(&file).unwrap_or_default().trim_end());
         }
     }
     println!("{rule}");

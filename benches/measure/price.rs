@@ -173,7 +173,7 @@ impl Prices {
         let mut nearest: Vec<Price> = nearest
             .into_iter()
             .map(|(family, time)| Price {
-                what: format!("{}: {}", family.name, family.description),
+                what: named(family),
                 family: family.name,
                 time,
                 at_most: multiple(goal::<V>(family.name)),
@@ -234,23 +234,30 @@ impl Prices {
     }
 
     /// The prices of the families of a goal, from the least to the largest.
-    fn range(&self, families: &[&str]) -> String {
-        let prices = || {
-            let of_goal = |price: &&Price| families.contains(&price.family);
-            self.nearest.iter().filter(of_goal).map(|price| price.time.price)
-        };
-        let [least, largest] = [
-            multiple(prices().fold(f64::INFINITY, f64::min)),
-            multiple(prices().fold(f64::NEG_INFINITY, f64::max)),
-        ];
-        if prices().next().is_none() {
-            "–".into()
-        } else if least == largest {
-            least
-        } else {
-            format!("{least}–{largest}")
-        }
+    fn of_families(&self, families: &[&str]) -> String {
+        range(self.nearest.iter().filter(|price| families.contains(&price.family)))
     }
+
+    /// The prices of what else is asked on a family.
+    fn of_question(&self, family: &str, question: &str) -> String {
+        let is_it = |price: &&Price| {
+            price.family == family
+                && price.what.contains(question)
+                && !price.what.contains("textbook")
+        };
+        range(self.other.iter().filter(is_it))
+    }
+}
+
+/// Prices from the least to the largest.
+fn range<'a>(prices: impl Iterator<Item = &'a Price> + Clone) -> String {
+    let prices = prices.map(|price| price.time.price);
+    if prices.clone().next().is_none() {
+        return "–".into();
+    }
+    let least = multiple(prices.clone().fold(f64::INFINITY, f64::min));
+    let largest = multiple(prices.fold(f64::NEG_INFINITY, f64::max));
+    if least == largest { least } else { format!("{least}–{largest}") }
 }
 
 /// The table of all precisions in short, which the README shows.
@@ -258,11 +265,30 @@ pub fn in_short(of_precisions: &[&Prices]) -> Table {
     let mut heads = vec!["rays and spheres"];
     heads.extend(of_precisions.iter().map(|prices| prices.precision));
     let mut table = Table::new(&heads);
+    let mut row = |what: &str, ranges: &mut dyn Iterator<Item = String>| {
+        table.row(std::iter::once(what.to_owned()).chain(ranges).collect::<Vec<_>>());
+    };
     for goal in &GOALS {
-        let ranges = of_precisions.iter().map(|prices| prices.range(goal.families));
-        table.row(std::iter::once(goal.what.to_owned()).chain(ranges).collect::<Vec<_>>());
+        row(goal.what, &mut of_precisions.iter().map(|prices| prices.of_families(goal.families)));
+    }
+    for (what, family, question) in [
+        ("both roots, unit sphere at 2 to 10", "easy", "both roots"),
+        ("both roots, distance/radius 1e2 to 1e4", "far", "both roots"),
+        ("point and normal too, unit sphere at 2 to 10", "easy", "whole hit"),
+    ] {
+        row(what, &mut of_precisions.iter().map(|prices| prices.of_question(family, question)));
     }
     table
+}
+
+/// The name of a family, and what its cases are.
+fn named(family: &Family) -> String {
+    let Family { name, description, .. } = family;
+    if description.starts_with(name) {
+        (*description).into()
+    } else {
+        format!("{name}: {description}")
+    }
 }
 
 /// A multiple with two digits that count.
