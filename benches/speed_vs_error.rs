@@ -138,11 +138,9 @@ fn prices(effort: Effort) -> io::Result<()> {
         ];
     }
     progress.finish_and_clear();
-    let mut text = format!("{}\n\n", report::PRICES);
-    for prices in &parts {
-        text += &format!("{}\n", prices.table());
-    }
-    text += &price::in_short(&parts.iter().collect::<Vec<_>>()).to_string();
+    let tables: Vec<_> = parts.iter().map(|prices| prices.table().to_string()).collect();
+    let in_short = price::in_short(&parts.iter().collect::<Vec<_>>());
+    let text = format!("{}\n\n{}\n{in_short}", report::PRICES, tables.join("\n"));
     page::finish("speed_vs_error", effort, &text)
 }
 

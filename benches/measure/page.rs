@@ -1,22 +1,21 @@
 //! The page that every run of the benches ends with: what was measured, and where the reports lie.
 //!
-//! `cargo bench` runs one program after the other. Each ends with its part of the page; the last, `summary`, prints them all.
+//! `cargo bench` runs one program after the other. Each ends with its part of the page; the last, `wrap_up`, prints them all.
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use super::arguments::Effort;
 use super::conditions;
 
 /// The programs in the order of interest.
-const PROGRAMS: [&str; 3] = ["speed_vs_error", "spheres", "intersect"];
+const PROGRAMS: [&str; 3] = ["speed_vs_error", "spheres", "throughput"];
 
 /// The file of a program's part.
 const PART: &str = "page.md";
 
-/// Parts older than this are of another run.
-const ONE_RUN: Duration = Duration::from_secs(15 * 60);
+/// Parts that are older are of another run.
+const ONE_RUN_SECONDS: u64 = 15 * 60;
 
 /// Where a program leaves its reports.
 pub fn directory(program: &str) -> PathBuf {
@@ -48,7 +47,7 @@ fn print(programs: &[&str]) {
         let file = directory(program).join(PART);
         let age = fs::metadata(&file).and_then(|file| file.modified()).ok();
         let age = age.and_then(|written| written.elapsed().ok());
-        if age.is_some_and(|age| age < ONE_RUN) {
+        if age.is_some_and(|age| age.as_secs() < ONE_RUN_SECONDS) {
             println!("\n{}", fs::read_to_string(&file).unwrap_or_default().trim_end());
         }
     }

@@ -1,10 +1,10 @@
 //! Each public function by criterion, beside the textbook: one ray and one sphere, the nearest of a slice, eye rays.
 //!
 //! ```text
-//! cargo bench --bench intersect                  # everything, in under a minute
-//! cargo bench --bench intersect -- "f32, easy"   # what matches
-//! cargo bench --bench intersect -- --save-baseline before     # then, after a change: -- --baseline before
-//! cargo bench --bench intersect -- --test        # each once, untimed
+//! cargo bench --bench throughput                  # everything, in under a minute
+//! cargo bench --bench throughput -- "f32, easy"   # what matches
+//! cargo bench --bench throughput -- --save-baseline before     # then, after a change: -- --baseline before
+//! cargo bench --bench throughput -- --test        # each once, untimed
 //! ```
 //!
 //! This is for comparing one version with the next. Each benchmark goes through inputs enough that the branch predictor does
@@ -263,7 +263,7 @@ fn main() -> std::io::Result<()> {
     let once = std::env::args().any(|argument| argument == "--test");
     let effort = if once { Effort::Test } else { Effort::Usual };
     page::finish(
-        "intersect",
+        "throughput",
         effort,
         "Each public function beside the textbook, branches not predicted, one version beside the next: criterion's \
 estimates above, and in target/criterion.",

@@ -11,7 +11,7 @@ use measure::arguments::{Arguments, Effort};
 use measure::page;
 
 fn main() {
-    if Arguments::read("summary").effort != Effort::Test {
+    if Arguments::read("wrap_up").effort != Effort::Test {
         page::print_all();
     }
 }
