@@ -212,7 +212,7 @@ fn cost(name: &Name, index: usize, places: &[Point], placed: &[Name]) -> f64 {
     cost
 }
 
-/// The width of a text in the widest of the fonts, DejaVu Sans.
+/// The width of a text in the widest of the fonts, `DejaVu Sans`.
 pub(super) fn text_width(text: &str) -> f64 {
     let em = |letter: char| match letter {
         'i' | 'j' | 'l' | ' ' | '-' | '.' | ',' | ':' | '\'' => 0.32,
