@@ -1,12 +1,15 @@
 //! Speed against error: every published method and eyeray's, on every family of cases.
 //!
 //! ```text
-//! cargo bench --bench speed_vs_error                  # in under ten minutes
-//! cargo bench --bench speed_vs_error -- --quick       # for a first impression, in under one
-//! cargo bench --bench speed_vs_error -- --refresh     # also writes the copies in benches/report/, which the README shows
+//! cargo bench --bench speed_vs_error                  # in about a minute
+//! cargo bench --bench speed_vs_error -- --quick       # for a first impression, in some seconds
+//! cargo bench --bench speed_vs_error -- --prices      # only the times of eyeray's, in multiples of the textbook's
+//! cargo bench --bench speed_vs_error -- --refresh     # five times the cases, and the copies in benches/report/
+//! RUSTFLAGS="-C target-cpu=x86-64-v3" cargo bench --bench speed_vs_error -- --prices     # with FMA
 //! ```
 //!
-//! The report is printed and written to `target/speed_vs_error/`: Markdown, CSV, and a plot for each precision.
+//! The report is written to `target/speed_vs_error/`: Markdown, CSV, and a plot for each precision. Its first page, which has
+//! the figures that the README states, is printed.
 
 use std::io;
 use std::path::Path;
@@ -20,9 +23,10 @@ mod methods;
 mod support;
 
 use measure::arguments::{Arguments, Effort};
-use measure::{Kind, Method, report};
+use measure::price::{self, questions_f32, questions_f64};
+use measure::{Kind, Measured, Method, page, report};
 
-/// Cases of a family in f32 and in f64, whose exact answers take longer.
+/// Cases of a family in f32 and in f64, whose exact answers take longer, where the copies are refreshed.
 const ACCURACY_CASES: [usize; 2] = [1_000_000, 250_000];
 
 macro_rules! methods_of {
@@ -116,17 +120,39 @@ fn methods_f32() -> Vec<Method<Vec3>> {
 }
 
 fn main() -> io::Result<()> {
-    let arguments = Arguments::read("cargo bench --bench speed_vs_error", true);
+    let arguments = Arguments::read("speed_vs_error");
+    if arguments.prices { prices(arguments.effort) } else { speed_vs_error(arguments) }
+}
+
+fn prices(effort: Effort) -> io::Result<()> {
+    fn ours<V: Measured>(methods: Vec<Method<V>>) -> Option<Method<V>> {
+        methods.into_iter().find(|method| method.name == report::OURS)
+    }
+
+    let progress = report::progress(2);
+    let mut parts = Vec::new();
+    if let (Some(single), Some(double)) = (ours(plain_f32()), ours(plain_f64())) {
+        parts = vec![
+            report::prices(&single, &questions_f32(), effort, &progress),
+            report::prices(&double, &questions_f64(), effort, &progress),
+        ];
+    }
+    progress.finish_and_clear();
+    let tables: Vec<_> = parts.iter().map(|prices| prices.table().to_string()).collect();
+    let in_short = price::in_short(&parts.iter().collect::<Vec<_>>());
+    let text = format!("{}\n\n{}\n{in_short}", report::PRICES, tables.join("\n"));
+    page::finish("speed_vs_error", effort, &text)
+}
+
+fn speed_vs_error(arguments: Arguments) -> io::Result<()> {
     let effort = arguments.effort;
     let progress = report::progress(2);
+    let [cases_f32, cases_f64] = ACCURACY_CASES;
     let parts = [
-        report::measure(&methods_f32(), ACCURACY_CASES[0], effort, &progress),
-        report::measure(&plain_f64(), ACCURACY_CASES[1], effort, &progress),
+        report::measure(&methods_f32(), Some(&questions_f32()), cases_f32, effort, &progress),
+        report::measure(&plain_f64(), Some(&questions_f64()), cases_f64, effort, &progress),
     ];
     progress.finish_and_clear();
-    if effort == Effort::Test {
-        return Ok(());
-    }
     let copies = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/report");
     report::publish(
         "speed_vs_error",

@@ -133,8 +133,12 @@ pub fn judge<V: Measured>(family: &Family, methods: &[Method<V>], count: usize) 
         .into_par_iter()
         .map(|chunk| {
             let mut tallies = vec![Tally::default(); methods.len()];
-            for case in cases::<V>(family, SEED + chunk as u64, CHUNK.min(count)) {
-                judge_case(&case, methods, &mut tallies);
+            let cases = cases::<V>(family, SEED + chunk as u64, CHUNK.min(count));
+            let answers: Vec<_> =
+                methods.iter().map(|method| method.nearest.answers(&cases)).collect();
+            for (index, case) in cases.iter().enumerate() {
+                let answers = answers.iter().map(|answers| answers[index]);
+                judge_case(case, methods.iter().zip(answers), &mut tallies);
             }
             tallies
         })
@@ -144,16 +148,21 @@ pub fn judge<V: Measured>(family: &Family, methods: &[Method<V>], count: usize) 
         )
 }
 
-fn judge_case<V: Measured>(case: &Case<V>, methods: &[Method<V>], tallies: &mut [Tally]) {
+/// Judges the methods' answers to a case.
+fn judge_case<'a, V: Measured>(
+    case: &Case<V>,
+    answers: impl Iterator<Item = (&'a Method<V>, Option<V::Scalar>)>,
+    tallies: &mut [Tally],
+) {
     let (ray, sphere) = case;
     // A root that is accepted is finite and above 0.
-    let accepted = |method: &Method<V>| {
-        (method.nearest)(case).filter(|&t| t > V::Scalar::ZERO && Float::is_finite(t))
-    };
+    let answers = answers.map(|(method, answer)| {
+        (method, answer.filter(|&t| t > V::Scalar::ZERO && Float::is_finite(t)))
+    });
     if !is_valid(ray, sphere) {
-        for (method, tally) in methods.iter().zip(tallies) {
+        for ((_, answer), tally) in answers.zip(tallies) {
             tally.invalid += 1;
-            tally.invalid_hits += u64::from(accepted(method).is_some());
+            tally.invalid_hits += u64::from(answer.is_some());
         }
         return;
     }
@@ -167,13 +176,13 @@ fn judge_case<V: Measured>(case: &Case<V>, methods: &[Method<V>], tallies: &mut 
         Some(Ordering::Equal) => Start::OnTheSurface,
         _ => Start::Outside,
     };
-    for (method, tally) in methods.iter().zip(tallies) {
+    for ((method, answer), tally) in answers.zip(tallies) {
         if !(method.promises)(case, start) {
             tally.apart += 1;
             continue;
         }
         tally.judged += 1;
-        match (accepted(method), &ahead) {
+        match (answer, &ahead) {
             (None, None) => {}
             (Some(t), Some(ahead)) => {
                 let error = ahead.error(t);

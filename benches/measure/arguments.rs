@@ -10,13 +10,17 @@ use super::timing::Regime;
 #[derive(Clone, Copy, Debug)]
 pub struct Arguments {
     pub effort: Effort,
+    /// Only the prices, without the other methods and without errors.
+    pub prices: bool,
     /// Whether the copies beside the benches are written too.
     pub refresh: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
+    /// For the copies beside the benches.
     Full,
+    Usual,
     /// For a first impression.
     Quick,
     /// Only to see that it runs.
@@ -28,6 +32,7 @@ impl Effort {
     pub fn cases(self, full: usize) -> usize {
         match self {
             Self::Full => full,
+            Self::Usual => full / 5,
             Self::Quick => full / 50,
             Self::Test => 20,
         }
@@ -35,7 +40,7 @@ impl Effort {
 
     pub fn regime(self, full: Regime) -> Regime {
         match self {
-            Self::Full => full,
+            Self::Full | Self::Usual => full,
             Self::Quick => full.quick(),
             Self::Test => Regime::SMALLEST,
         }
@@ -43,34 +48,36 @@ impl Effort {
 }
 
 impl Arguments {
-    /// Reads the arguments; where they are wrong, says how they go and ends the program.
-    pub fn read(bench: &str, can_refresh: bool) -> Self {
-        match Self::parse(can_refresh) {
-            Ok(arguments) => arguments,
-            Err(error) => {
-                let refresh = if can_refresh { " [--refresh]" } else { "" };
-                eprintln!("error: {error}");
-                eprintln!("usage: {bench} -- [--quick | --test]{refresh}");
-                process::exit(2)
-            }
-        }
+    /// Reads the arguments of a program, and ends it where they ask for other benchmarks.
+    pub fn read(program: &str) -> Self {
+        Self::parse(program).unwrap_or_else(|error| {
+            eprintln!("error: {error}");
+            process::exit(2)
+        })
     }
 
-    fn parse(can_refresh: bool) -> Result<Self, lexopt::Error> {
-        let mut arguments = Self { effort: Effort::Full, refresh: false };
+    /// `cargo bench` gives every program the same arguments: what only criterion knows is not for this one.
+    fn parse(program: &str) -> Result<Self, lexopt::Error> {
+        let mut arguments = Self { effort: Effort::Usual, prices: false, refresh: false };
         let mut parser = Parser::from_env();
         while let Some(argument) = parser.next()? {
             match argument {
                 Arg::Long("quick") => arguments.effort = Effort::Quick,
                 Arg::Long("test") => arguments.effort = Effort::Test,
-                Arg::Long("refresh") if can_refresh => arguments.refresh = true,
+                Arg::Long("prices") => arguments.prices = true,
+                Arg::Long("refresh") => arguments.refresh = true,
                 // What cargo adds by itself.
                 Arg::Long("bench") => {}
-                other => return Err(other.unexpected()),
+                Arg::Value(name) if program.contains(&*name.to_string_lossy()) => {}
+                Arg::Value(_) => process::exit(0),
+                other => eprintln!("not for this report: {}", other.unexpected()),
             }
         }
-        if arguments.refresh && arguments.effort != Effort::Full {
-            return Err("--refresh is for a full run".into());
+        if arguments.refresh {
+            if arguments.effort != Effort::Usual || arguments.prices {
+                return Err("--refresh is for a full run".into());
+            }
+            arguments.effort = Effort::Full;
         }
         Ok(arguments)
     }

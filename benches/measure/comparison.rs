@@ -1,15 +1,12 @@
 //! What one thing costs beside another that does the same.
 
 use super::arguments::Effort;
+use super::price::{self, Predicted};
 use super::report::Table;
-use super::timing::{self, Pass, Regime};
-use super::{Measured, SEED, cases};
+use super::{Measured, Timed};
 use crate::support::families::FAMILIES;
 
-/// The easy family's cases over and over, until their branches are predicted.
-const REGIME: Regime = Regime { rounds: 31, ..Regime::PREDICTED };
-
-/// A table of comparisons, each of which was timed in rounds.
+/// A table of comparisons on the easy family, each timed in turns.
 pub struct Comparisons {
     table: Table,
     effort: Effort,
@@ -21,32 +18,25 @@ impl Comparisons {
         Self { table: Table::new(&heads), effort }
     }
 
-    /// Times ours and the others in turns, and adds a row that compares it with the fastest of them.
+    /// Times ours and another in turns, and adds a row that compares them.
     pub fn compare<V: Measured>(
         &mut self,
         what: &str,
         at_most: &str,
-        ours: &Pass<V>,
-        others: &[(&str, Pass<V>)],
+        ours: &dyn Timed<V>,
+        (name, theirs): (&str, &dyn Timed<V>),
     ) {
-        let regime = self.effort.regime(REGIME);
         let easy = FAMILIES.iter().find(|family| family.name == "easy").expect("it is a family");
-        let passes: Vec<_> =
-            std::iter::once(ours).chain(others.iter().map(|(_, pass)| pass)).collect();
-        let cases = cases::<V>(easy, SEED, regime.cases);
-        let times = timing::medians(&passes, cases.as_slice(), cases.len(), regime);
-        let fastest =
-            others.iter().zip(&times[1..]).min_by(|(_, one), (_, other)| one.total_cmp(other));
-        if let Some(((name, _), time)) = fastest {
-            self.table.row([
-                what.into(),
-                format!("{:.2}", times[0]),
-                (*name).into(),
-                format!("{time:.2}"),
-                format!("{:.2}", times[0] / time),
-                at_most.into(),
-            ]);
-        }
+        let times = price::predicted(&[ours], theirs, easy, self.effort);
+        let [Predicted { nanoseconds, price: ratio }] = times[..] else { return };
+        self.table.row([
+            what.into(),
+            format!("{nanoseconds:.2}"),
+            name.into(),
+            format!("{:.2}", nanoseconds / ratio),
+            format!("{ratio:.2}"),
+            at_most.into(),
+        ]);
     }
 }
 

@@ -24,6 +24,7 @@ pub const GROUPS: [Group; 6] = [
         families: &[
             "grazing",
             "grazing from afar",
+            "planet's limb",
             "exact tangent",
             "tangent's neighbor",
             "near tangent",

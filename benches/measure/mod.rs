@@ -6,15 +6,17 @@ pub mod arguments;
 pub mod comparison;
 pub mod conditions;
 pub mod groups;
+pub mod page;
 pub mod plot;
+pub mod price;
 pub mod report;
 pub mod timing;
 
 use std::hint::black_box;
 
-use eyeray::{Ray, Scalar, Sphere};
+use eyeray::{Ray, Sphere};
 
-use self::timing::Pass;
+use self::timing::Turn;
 use crate::support::families::{Case, Family, Precision, Rng};
 use crate::support::oracle::Coordinates;
 
@@ -73,8 +75,49 @@ pub enum Start {
 /// Whether an answer is promised to a case.
 pub type Promise<V> = fn(&Case<V>, Start) -> bool;
 
-/// Finds the first root ahead.
-pub type Nearest<V> = dyn Fn(&Case<V>) -> Option<<V as eyeray::Vector>::Scalar> + Sync;
+/// What is asked of each case in a row, the answers stored one after the other.
+///
+/// There is one loop, which calls the test in one place: what is timed is what is judged. A closure that is called in two
+/// places is not inlined into either, and then a call, and an answer by way of memory, is most of a fast test's time.
+/// The sum of the answers instead takes the same time.
+pub struct Test<V: Measured, T> {
+    answer: Box<Answer<V, T>>,
+}
+
+type Answer<V, T> = dyn Fn(&[Case<V>], &mut [Option<T>]) + Sync;
+
+impl<V: Measured, T> Test<V, T> {
+    pub fn new(test: impl Fn(&Ray<V>, &Sphere<V>) -> Option<T> + Sync + 'static) -> Self {
+        Self {
+            answer: Box::new(move |cases, answers| {
+                for ((ray, sphere), answer) in cases.iter().zip(answers) {
+                    *answer = test(ray, sphere);
+                    // So that each is stored before the next: a path tracer asks for one at a time.
+                    black_box(answer);
+                }
+            }),
+        }
+    }
+
+    pub fn answers(&self, cases: &[Case<V>]) -> Vec<Option<T>> {
+        let mut answers = Vec::new();
+        answers.resize_with(cases.len(), || None);
+        (self.answer)(cases, &mut answers);
+        answers
+    }
+}
+
+/// What can take turns in going through cases.
+pub trait Timed<V: Measured>: Sync {
+    fn turn<'a>(&'a self, cases: &'a [Case<V>]) -> Turn<'a>;
+}
+
+impl<V: Measured, T> Timed<V> for Test<V, T> {
+    fn turn<'a>(&'a self, cases: &'a [Case<V>]) -> Turn<'a> {
+        let mut answers = self.answers(cases);
+        Box::new(move || (self.answer)(black_box(cases), &mut answers))
+    }
+}
 
 /// A way to find where a ray meets a sphere first.
 pub struct Method<V: Measured> {
@@ -85,8 +128,10 @@ pub struct Method<V: Measured> {
     pub kind: Kind,
     /// Whether it promises an answer.
     pub promises: Promise<V>,
-    pub nearest: Box<Nearest<V>>,
-    pub pass: Pass<V>,
+    /// Finds the first root ahead.
+    pub nearest: Test<V, V::Scalar>,
+    /// What is timed instead.
+    timed: Option<Box<dyn Timed<V>>>,
 }
 
 impl<V: Measured> Method<V> {
@@ -94,16 +139,10 @@ impl<V: Measured> Method<V> {
         name: &'static str,
         source: &'static str,
         kind: Kind,
-        nearest: impl Fn(&Ray<V>, &Sphere<V>) -> Option<V::Scalar> + Copy + Sync + 'static,
+        nearest: impl Fn(&Ray<V>, &Sphere<V>) -> Option<V::Scalar> + Sync + 'static,
     ) -> Self {
-        Self {
-            name,
-            source,
-            kind,
-            promises: |_, _| true,
-            nearest: Box::new(move |(ray, sphere)| nearest(ray, sphere)),
-            pass: sum_of(move |ray, sphere| nearest(ray, sphere).unwrap_or(V::Scalar::ZERO)),
-        }
+        let nearest = Test::new(nearest);
+        Self { name, source, kind, promises: |_, _| true, nearest, timed: None }
     }
 
     /// The same method, which promises an answer to these cases only.
@@ -112,33 +151,15 @@ impl<V: Measured> Method<V> {
         Self { promises, ..self }
     }
 
-    /// The same method, of which this pass is timed.
+    /// The same method, of which this is timed.
     #[must_use]
-    pub fn timed(self, pass: Pass<V>) -> Self {
-        Self { pass, ..self }
+    pub fn timed_by(self, timed: impl Timed<V> + 'static) -> Self {
+        Self { timed: Some(Box::new(timed)), ..self }
     }
 }
 
-/// A pass over cases that adds up what a test returns, so that nothing of it is left out.
-pub fn sum_of<V: Measured>(
-    test: impl Fn(&Ray<V>, &Sphere<V>) -> V::Scalar + Sync + 'static,
-) -> Pass<V> {
-    Box::new(move |cases| {
-        let mut sum = V::Scalar::ZERO;
-        for (ray, sphere) in cases {
-            sum = sum + test(ray, sphere);
-        }
-        black_box(sum);
-    })
-}
-
-/// A pass over cases that has all that a test returns stored.
-pub fn stored_of<V: Measured, T>(
-    test: impl Fn(&Ray<V>, &Sphere<V>) -> T + Sync + 'static,
-) -> Pass<V> {
-    Box::new(move |cases| {
-        for (ray, sphere) in cases {
-            black_box(test(ray, sphere));
-        }
-    })
+impl<V: Measured> Timed<V> for Method<V> {
+    fn turn<'a>(&'a self, cases: &'a [Case<V>]) -> Turn<'a> {
+        self.timed.as_ref().map_or_else(|| self.nearest.turn(cases), |timed| timed.turn(cases))
+    }
 }

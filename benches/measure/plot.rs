@@ -4,8 +4,11 @@
 //! rounded. Every panel has the same axes, and draws the front of the methods than which none is both faster and more
 //! accurate. The picture brings its own background, light or dark as the reader prefers.
 
+mod names;
+
 use std::fmt::Write as _;
 
+use self::names::{Name, text_width};
 use super::Kind;
 
 /// What the picture shows, for those who do not see it.
@@ -36,18 +39,19 @@ const COLUMNS: usize = 2;
 const HEAD: f64 = 64.0;
 const FOOT: f64 = 44.0;
 const PANEL_WIDTH: f64 = 375.0;
-const PANEL_HEIGHT: f64 = 270.0;
+const PANEL_HEIGHT: f64 = 290.0;
 const LEFT: f64 = 58.0;
 const GAP: f64 = 60.0;
 const ROW_HEIGHT: f64 = PANEL_HEIGHT + 64.0;
 /// The power of ten of the ulps at which the axis ends. What is beyond stands there too.
 const WORST: i32 = 12;
 /// The height of the band for what is correctly rounded.
-const BAND: f64 = 62.0;
+const BAND: f64 = 82.0;
 
 const FONT_SIZE: f64 = 11.0;
-const LETTER_WIDTH: f64 = 5.9;
 const MARK_RADIUS: f64 = 4.5;
+/// Room above the worst errors, for the names of what stands there.
+const HEADROOM: f64 = 30.0;
 
 /// Colors are named once for light and once for dark, without CSS variables, which not every viewer knows.
 const STYLE: &str = "
@@ -69,31 +73,6 @@ const STYLE: &str = "
     .name { stroke: #0d1117 }
   }
 ";
-
-/// A rectangle of the picture.
-#[derive(Clone, Copy)]
-struct Area {
-    left: f64,
-    top: f64,
-    width: f64,
-    height: f64,
-}
-
-impl Area {
-    fn overlaps(&self, other: &Self) -> bool {
-        self.left < other.left + other.width
-            && other.left < self.left + self.width
-            && self.top < other.top + other.height
-            && other.top < self.top + self.height
-    }
-
-    fn contains(&self, other: &Self) -> bool {
-        self.left <= other.left
-            && other.left + other.width <= self.left + self.width
-            && self.top <= other.top
-            && other.top + other.height <= self.top + self.height
-    }
-}
 
 /// The time axis that all panels share: the logarithms of the nanoseconds at the left and at the right.
 struct TimeAxis {
@@ -117,7 +96,7 @@ impl TimeAxis {
 
     fn place(&self, mark: &Mark) -> (f64, f64) {
         let y = if mark.correctly_rounded {
-            PANEL_HEIGHT - BAND / 2.0 - 3.0
+            PANEL_HEIGHT - BAND / 2.0 - 5.0
         } else {
             error_y(mark.ulps)
         };
@@ -127,9 +106,9 @@ impl TimeAxis {
 
 /// Where so many ulps are, above the band.
 fn error_y(ulps: f64) -> f64 {
-    let (least, worst) = (-0.8, f64::from(WORST) + 0.6);
-    let part = (ulps.log10().clamp(-0.5, f64::from(WORST)) - least) / (worst - least);
-    (PANEL_HEIGHT - BAND) * (1.0 - part)
+    let (least, worst) = (-0.8, f64::from(WORST));
+    let part = (ulps.log10().clamp(-0.5, worst) - least) / (worst - least);
+    HEADROOM + (PANEL_HEIGHT - BAND - HEADROOM) * (1.0 - part)
 }
 
 /// The picture of the panels.
@@ -168,7 +147,7 @@ fn legend(svg: &mut String, panels: &[Panel]) {
     for (kind, hollow, text) in entries.into_iter().filter(|entry| used(entry.0)) {
         symbol(svg, (x, 42.0), kind, hollow);
         let _ = writeln!(svg, "<text x=\"{:.0}\" y=\"46\">{text}</text>", x + 10.0);
-        x += 34.0 + LETTER_WIDTH * letters(text);
+        x += 34.0 + text_width(text);
     }
     let _ = writeln!(
         svg,
@@ -198,21 +177,8 @@ fn draw_panel(svg: &mut String, panel: &Panel, axis: &TimeAxis) {
         front(&places).into_iter().map(|(x, y)| format!("{x:.1} {y:.1}")).collect();
     let _ = writeln!(svg, "<path class=\"front\" d=\"M{}\"/>", front.join("L"));
 
-    let mut taken: Vec<Area> = places
-        .iter()
-        .map(|&(x, y)| Area {
-            left: x - MARK_RADIUS,
-            top: y - MARK_RADIUS,
-            width: 2.0 * MARK_RADIUS,
-            height: 2.0 * MARK_RADIUS,
-        })
-        .collect();
-    // The words in the band.
-    taken.push(Area { left: 0.0, top: PANEL_HEIGHT - 16.0, width: 160.0, height: 16.0 });
-    let mut order: Vec<usize> = (0..places.len()).collect();
-    order.sort_by(|&i, &j| places[j].0.total_cmp(&places[i].0));
-    for index in order {
-        name_mark(svg, &panel.marks[index], places[index], &mut taken);
+    for (name, mark) in names::place(&panel.marks, &places).iter().zip(&panel.marks) {
+        draw_name(svg, name, mark);
     }
     for (mark, &place) in panel.marks.iter().zip(&places) {
         symbol(svg, place, mark.kind, mark.decides_wrongly);
@@ -310,52 +276,18 @@ fn symbol(svg: &mut String, (x, y): (f64, f64), kind: Kind, hollow: bool) {
     };
 }
 
-/// Writes a mark's name where there is room, the nearer the better.
-fn name_mark(svg: &mut String, mark: &Mark, (x, y): (f64, f64), taken: &mut Vec<Area>) {
-    const PANEL: Area =
-        Area { left: 2.0, top: 2.0, width: PANEL_WIDTH - 4.0, height: PANEL_HEIGHT - 4.0 };
-    let (width, height) = (LETTER_WIDTH * letters(mark.label), FONT_SIZE + 1.0);
-    let beside = MARK_RADIUS + 3.0;
-    let near = [
-        (x + beside, y - height / 2.0),
-        (x - beside - width, y - height / 2.0),
-        (x - width / 2.0, y - MARK_RADIUS - height - 1.0),
-        (x - width / 2.0, y + MARK_RADIUS + 1.0),
-    ];
-    let around = (2..30).flat_map(|ring| {
-        (0..24).map(move |step| {
-            let (sine, cosine) = (f64::from(step) * std::f64::consts::TAU / 24.0).sin_cos();
-            let distance = 8.0 * f64::from(ring);
-            let center_x = x + cosine * (distance + width / 2.0);
-            (center_x - width / 2.0, y + sine * distance - height / 2.0)
-        })
-    });
-    let place = near
-        .into_iter()
-        .chain(around)
-        .map(|(left, top)| Area { left, top, width, height })
-        .enumerate()
-        .find(|(_, area)| PANEL.contains(area) && !taken.iter().any(|other| other.overlaps(area)));
-    let Some((choice, area)) = place else { return };
-    if choice >= near.len() {
-        // From the nearest point of the name.
-        let from_x = x.clamp(area.left, area.left + width);
-        let from_y = y.clamp(area.top + 1.0, area.top + height - 1.0);
+fn draw_name(svg: &mut String, name: &Name, mark: &Mark) {
+    let Name { area, leader } = name;
+    if let Some([(from_x, from_y), (x, y)]) = leader {
         let _ =
             writeln!(svg, "<path class=\"leader\" d=\"M{from_x:.1} {from_y:.1}L{x:.1} {y:.1}\"/>");
     }
-    taken.push(area);
     let _ = writeln!(
         svg,
         "<text class=\"{} name\" x=\"{:.1}\" y=\"{:.1}\">{}</text>",
         class(mark.kind),
         area.left,
-        area.top + height - 2.5,
+        area.top + area.height - 2.5,
         mark.label
     );
-}
-
-#[expect(clippy::cast_precision_loss, reason = "names are short")]
-fn letters(text: &str) -> f64 {
-    text.chars().count() as f64
 }

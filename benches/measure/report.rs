@@ -10,8 +10,9 @@ use super::accuracy::{self, Summary};
 use super::arguments::{Arguments, Effort};
 use super::groups::{self, GROUPS, Group};
 use super::plot::{self, Mark, Panel};
+use super::price::{self, Predicted, Prices, Questions};
 use super::timing::{self, Regime};
-use super::{Kind, Measured, Method, SEED, cases, conditions};
+use super::{Kind, Measured, Method, SEED, Timed, cases, conditions, page};
 use crate::support::families::{FAMILIES, Family};
 
 /// What was measured of a method on a family.
@@ -21,9 +22,10 @@ pub struct Row {
     pub method: &'static str,
     pub kind: Kind,
     pub errors: Summary,
-    /// Nanoseconds a test, and how many times the first method's.
-    pub predicted: f64,
+    pub predicted: Predicted,
+    /// How many times the first method's on this family.
     pub predicted_ratio: f64,
+    /// Nanoseconds a test, and how many times the first method's.
     pub unpredicted: f64,
     pub unpredicted_ratio: f64,
 }
@@ -34,6 +36,7 @@ pub struct Part {
     sources: Vec<(&'static str, &'static str)>,
     rows: Vec<Row>,
     accuracy_cases: usize,
+    prices: Option<Prices>,
 }
 
 /// The line that says how far a run is.
@@ -46,19 +49,17 @@ pub fn progress(parts: usize) -> ProgressBar {
 }
 
 /// Measures every method on every family. The first method is the one that the others are compared with.
+///
+/// With questions, the report opens with the prices of all that a sphere is asked for.
 pub fn measure<V: Measured>(
     methods: &[Method<V>],
+    questions: Option<&Questions<V>>,
     full_accuracy_cases: usize,
     effort: Effort,
     progress: &ProgressBar,
 ) -> Part {
     let accuracy_cases = effort.cases(full_accuracy_cases);
-    let passes: Vec<_> = methods.iter().map(|method| &method.pass).collect();
-    let time = |family, regime: Regime| {
-        let regime = effort.regime(regime);
-        let cases = cases::<V>(family, SEED, regime.cases);
-        timing::medians(&passes, cases.as_slice(), cases.len(), regime)
-    };
+    let tests: Vec<_> = methods.iter().map(|method| -> &dyn Timed<V> { method }).collect();
     let mut rows = Vec::new();
     for family in groups::families() {
         let message = format!("{}, {}", V::NAME, family.name);
@@ -67,8 +68,13 @@ pub fn measure<V: Measured>(
         }
         progress.set_message(message);
         let tallies = accuracy::judge(family, methods, accuracy_cases);
-        let predicted = time(family, Regime::PREDICTED);
-        let unpredicted = time(family, Regime::UNPREDICTED);
+        let predicted = price::predicted(&tests, tests[0], family, effort);
+        let unpredicted = {
+            let regime = effort.regime(Regime::UNPREDICTED);
+            let cases = cases::<V>(family, SEED, regime.cases);
+            let turns = tests.iter().map(|test| test.turn(&cases)).collect();
+            timing::medians_of_turns(turns, cases.len(), regime)
+        };
         for (index, (method, tally)) in methods.iter().zip(tallies).enumerate() {
             rows.push(Row {
                 family,
@@ -76,16 +82,42 @@ pub fn measure<V: Measured>(
                 kind: method.kind,
                 errors: tally.summary(),
                 predicted: predicted[index],
-                predicted_ratio: predicted[index] / predicted[0],
+                predicted_ratio: predicted[index].price / predicted[0].price,
                 unpredicted: unpredicted[index],
                 unpredicted_ratio: unpredicted[index] / unpredicted[0],
             });
         }
         progress.inc(1);
     }
+    let prices = questions.map(|questions| {
+        let ours = rows.iter().filter(|row| row.method == OURS);
+        Prices::new(ours.map(|row| (row.family, row.predicted)), questions, effort)
+    });
     let sources = methods.iter().map(|method| (method.name, method.source)).collect();
-    Part { precision: V::NAME, sources, rows, accuracy_cases }
+    Part { precision: V::NAME, sources, rows, accuracy_cases, prices }
 }
+
+/// The prices alone.
+pub fn prices<V: Measured>(
+    ours: &Method<V>,
+    questions: &Questions<V>,
+    effort: Effort,
+    progress: &ProgressBar,
+) -> Prices {
+    let nearest = groups::families().map(|family| {
+        progress.set_message(format!("{}, {}", V::NAME, family.name));
+        progress.inc(1);
+        (family, price::predicted(&[ours], questions.textbook(), family, effort)[0])
+    });
+    Prices::new(nearest.collect::<Vec<_>>(), questions, effort)
+}
+
+/// Methods that are not among the few columns of the report's first page.
+const LESS_KNOWN: [&str; 6] =
+    ["geometric", "stable", "Haines", "textbook f64", "eyeray algebraic", "eyeray geometric"];
+
+/// The name of the method whose prices are told.
+pub const OURS: &str = "eyeray";
 
 /// What a group's families come to for a method: wrong decisions in all of their cases, the worst of their errors, the mean
 /// of their times.
@@ -115,7 +147,7 @@ impl Part {
             correctly_rounded: rows()
                 .filter(|row| row.errors.judged > 0.0)
                 .all(|row| row.errors.correctly_rounded),
-            predicted: mean(|row| row.predicted),
+            predicted: mean(|row| row.predicted.nanoseconds),
             unpredicted: mean(|row| row.unpredicted),
         }
     }
@@ -150,6 +182,15 @@ impl Part {
 
     fn markdown(&self, image: &str) -> String {
         let mut text = format!("## {} inputs\n\n", self.precision);
+        if let Some(prices) = &self.prices {
+            let _ = writeln!(
+                text,
+                "### The price\n\nThe time of the nearest root by `Sphere::intersect`, in multiples of the textbook's for \
+the nearest root on the easy family in {}, which takes its turn in the same rounds; branches predicted.\n\n{}",
+                self.precision,
+                prices.table()
+            );
+        }
         let _ = writeln!(text, "![{}]({image})\n", plot::ALT_TEXT);
         for (name, source) in &self.sources {
             let _ = writeln!(text, "- **{name}**: {source}");
@@ -193,6 +234,28 @@ impl Part {
         text
     }
 
+    /// A row for each group, a column for each method that is known best.
+    fn in_short(&self) -> Table {
+        let methods = || {
+            self.methods().map(|(method, _)| method).filter(|method| !LESS_KNOWN.contains(method))
+        };
+        let mut table =
+            Table::new(&std::iter::once("rays and spheres").chain(methods()).collect::<Vec<_>>());
+        for group in &GROUPS {
+            let cells = methods().map(|method| {
+                let overall = self.overall(group, method);
+                let (wrong, ulps) = (count(overall.wrong), ulps(overall.worst));
+                if overall.correctly_rounded {
+                    format!("**0 wrong, {ulps} ✓**, {:.1} ns", overall.predicted)
+                } else {
+                    format!("{wrong} wrong, {ulps} ulp, {:.1} ns", overall.predicted)
+                }
+            });
+            table.row(std::iter::once(group.name.to_owned()).chain(cells).collect::<Vec<_>>());
+        }
+        table
+    }
+
     fn family_table(&self, family: &Family) -> Table {
         let rows = || self.rows.iter().filter(|row| row.family.name == family.name);
         let any_apart = rows().any(|row| row.errors.apart > 0.0);
@@ -225,7 +288,7 @@ impl Part {
                 ulps(errors.median),
                 ulps(errors.percentile_99),
                 worst(errors.worst, errors.correctly_rounded),
-                format!("{:.1}", row.predicted),
+                format!("{:.1}", row.predicted.nanoseconds),
                 format!("{:.2}", row.predicted_ratio),
                 format!("{:.1}", row.unpredicted),
                 format!("{:.2}", row.unpredicted_ratio),
@@ -246,7 +309,7 @@ impl Part {
             let errors = &row.errors;
             let _ = writeln!(
                 text,
-                "{},\"{}\",\"{}\",\"{}\",{},{},{},{},{},{},{},{},{:.3},{:.3},{:.3},{:.3}",
+                "{},\"{}\",\"{}\",\"{}\",{},{},{},{},{},{},{},{},{:.3},{:.3},{:.3},{:.3},{:.3}",
                 self.precision,
                 groups::group_of(row.family).name,
                 row.family.name,
@@ -259,8 +322,9 @@ impl Part {
                 errors.percentile_99,
                 errors.worst,
                 errors.correctly_rounded,
-                row.predicted,
+                row.predicted.nanoseconds,
                 row.predicted_ratio,
+                row.predicted.price,
                 row.unpredicted,
                 row.unpredicted_ratio,
             );
@@ -270,7 +334,7 @@ impl Part {
 
 const CSV_HEAD: &str = "precision,group,family,method,wrong_per_million,other_root_per_million,\
 not_promised_per_million,hits_on_invalid_input,median_ulps,percentile_99_ulps,worst_ulps,correctly_rounded,\
-ns_predicted,ratio_predicted,ns_unpredicted,ratio_unpredicted\n";
+ns_predicted,ratio_predicted,price,ns_unpredicted,ratio_unpredicted\n";
 
 /// Prints the report and writes it under cargo's target directory, and to `copies` too where a refresh was asked for.
 pub fn publish(
@@ -280,7 +344,12 @@ pub fn publish(
     arguments: Arguments,
     copies: Option<&Path>,
 ) -> io::Result<()> {
-    let mut markdown = format!("# Speed against error\n\n{introduction}\n\n{}\n\n", explanation());
+    if arguments.effort == Effort::Test {
+        return page::finish(name, arguments.effort, "");
+    }
+    let in_short = in_short(parts);
+    let mut markdown =
+        format!("# Speed against error\n\n{introduction}\n\n{}\n\n{in_short}\n", explanation());
     let mut csv = CSV_HEAD.to_owned();
     let mut files = Vec::new();
     for part in parts {
@@ -290,32 +359,59 @@ pub fn publish(
         part.csv(&mut csv);
         files.push((image, part.plot()));
     }
-    println!("{markdown}");
     files.push((format!("{name}.md"), markdown));
     files.push((format!("{name}.csv"), csv));
 
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().map(|target| target.join(name));
+    let target = page::directory(name);
     let refreshed = copies.filter(|_| arguments.refresh).map(PathBuf::from);
-    for directory in target.into_iter().chain(refreshed) {
+    for directory in std::iter::once(target.clone()).chain(refreshed) {
         fs::create_dir_all(&directory)?;
         for (file, text) in &files {
             fs::write(directory.join(file), text)?;
         }
-        println!("written: {}", directory.display());
     }
-    Ok(())
+    let summary = format!(
+        "{introduction}\n\n{in_short}\nThe report: {}\n",
+        target.join(format!("{name}.md")).display()
+    );
+    page::finish(name, arguments.effort, &summary)
 }
+
+/// What the README states.
+fn in_short(parts: &[Part]) -> String {
+    let mut text = String::new();
+    let prices: Vec<_> = parts.iter().filter_map(|part| part.prices.as_ref()).collect();
+    if !prices.is_empty() {
+        let _ = writeln!(text, "{}\n\n{}", PRICES, price::in_short(&prices));
+    }
+    for part in parts {
+        let _ = writeln!(
+            text,
+            "First root ahead of one {} ray on one sphere, {} cases a family: wrong decisions in a million, worst error in \
+ulps, and nanoseconds with branches predicted; ✓ is every decision right and every root correctly rounded.\n\n{}",
+            part.precision,
+            part.accuracy_cases,
+            part.in_short()
+        );
+    }
+    text
+}
+
+/// Above the table of [`price::in_short`].
+pub const PRICES: &str = "The time of the nearest root by `Sphere::intersect`, in multiples of the textbook's on the unit \
+sphere at 2 to 10 in the same precision, branches predicted:";
 
 fn explanation() -> String {
     format!(
         "A test finds the first root ahead of one ray on one sphere. *Wrong*: a hit called a miss, or a miss a hit. \
 *Other root*: an answer nearer to the other root than to the first one ahead. *Ulps*: how far the answer is from the exact \
 root, where there is one and the method found any; ✓ where every answer was the correctly rounded root and no decision \
-was wrong. *ns*: nanoseconds a test where branches are predicted, {predicted} cases over and over; *unpredicted*: {unpredicted} \
-cases, once each a round. Both are medians of rounds in which every method takes its turn, beside their ratio to the first \
-method's. Input that is no ray or no sphere (a NaN, an infinity, a zero direction, a negative radius) is counted apart. \
+was wrong. *ns*: nanoseconds a test where branches are predicted, {predicted} cases, in blocks of {block} that are gone through until \
+the branch predictor has learned them; *unpredicted*: {unpredicted} cases, once each a round. Both are medians of rounds in \
+which every method takes its turn, beside their ratio to the first method's on the same family. Input that is no ray or no sphere (a NaN, an infinity, a zero direction, a negative radius) is counted apart. \
 The cases are those of the accuracy tests, with seeds from {SEED} on, a thousand cases each; those timed all with the seed {SEED}.\n\nMeasured on {conditions}",
-        predicted = Regime::PREDICTED.cases,
+        predicted = price::predicted_cases(),
+        block = Regime::PREDICTED.cases,
         unpredicted = Regime::UNPREDICTED.cases,
         conditions = conditions::line(),
     )
@@ -354,6 +450,9 @@ fn worst(value: f64, correctly_rounded: bool) -> String {
     }
 }
 
+/// The heads of the columns that are aligned at the left.
+const TEXT_COLUMNS: [&str; 5] = ["method", "group", "what", "compared with", "rays and spheres"];
+
 /// A Markdown table, aligned to be read as plain text too.
 pub struct Table {
     rows: Vec<Vec<String>>,
@@ -375,9 +474,7 @@ impl std::fmt::Display for Table {
             self.rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0)
         };
         let widths: Vec<usize> = (0..self.rows[0].len()).map(width).collect();
-        let is_text = |column: usize| {
-            ["method", "group", "what", "compared with"].contains(&self.rows[0][column].as_str())
-        };
+        let is_text = |column: usize| TEXT_COLUMNS.contains(&self.rows[0][column].as_str());
         for (index, row) in self.rows.iter().enumerate() {
             for (column, cell) in row.iter().enumerate() {
                 let width = widths[column];

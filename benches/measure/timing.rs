@@ -1,40 +1,39 @@
-//! Times of methods that take turns.
+//! Times of what takes turns.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use crate::support::families::Case;
-
 /// Goes through all that it is given, with what is timed inlined into its loop.
 pub type PassOver<T> = Box<dyn Fn(&T) + Sync>;
 
-/// Goes through cases.
-pub type Pass<V> = PassOver<[Case<V>]>;
+/// Goes through what is its own, with what is timed inlined into its loop.
+pub type Turn<'a> = Box<dyn FnMut() + 'a>;
 
 /// How cases are gone through.
 #[derive(Clone, Copy, Debug)]
 pub struct Regime {
     pub cases: usize,
-    /// Passes of a method's turn before those that are timed.
+    /// Passes of a turn before those that are timed.
     pub warm_up: u32,
-    /// Passes of a method's turn that are timed.
+    /// Passes of a turn that are timed.
     pub timed: u32,
-    /// Turns of each method.
+    /// Turns of each.
     pub rounds: usize,
 }
 
 impl Regime {
-    /// Few cases over and over: the branch predictor has learned them after about 60 passes.
-    pub const PREDICTED: Self = Self { cases: 4096, warm_up: 60, timed: 8, rounds: 15 };
+    /// Few cases over and over. Branch predictors learn 1,024 cases within some ten passes, and 4,096 some of them
+    /// never: then the time depends on how many others take turns.
+    pub const PREDICTED: Self = Self { cases: 1024, warm_up: 30, timed: 8, rounds: 11 };
     /// More cases than a branch predictor can learn, each of them once in a turn.
     pub const UNPREDICTED: Self = Self { cases: 32_768, warm_up: 0, timed: 1, rounds: 11 };
     /// Only to see that it runs.
-    pub const SMALLEST: Self = Self { cases: 64, warm_up: 0, timed: 1, rounds: 1 };
+    pub const SMALLEST: Self = Self { cases: 16, warm_up: 0, timed: 1, rounds: 1 };
 
     /// The same, for a first impression.
     #[must_use]
     pub fn quick(self) -> Self {
-        Self { cases: self.cases.min(8192), rounds: 3, ..self }
+        Self { cases: self.cases.min(8192), rounds: 5, ..self }
     }
 }
 
@@ -48,11 +47,17 @@ pub fn medians<T: ?Sized>(
     count: usize,
     regime: Regime,
 ) -> Vec<f64> {
-    let mut times = vec![Vec::with_capacity(regime.rounds); passes.len()];
+    let turns = passes.iter().map(|pass| -> Turn<'_> { Box::new(|| pass(black_box(input))) });
+    medians_of_turns(turns.collect(), count, regime)
+}
+
+/// The nanoseconds that each takes for one of `count`: the median of rounds in each of which every one takes its turn.
+pub fn medians_of_turns(mut turns: Vec<Turn<'_>>, count: usize, regime: Regime) -> Vec<f64> {
+    let mut times = vec![Vec::with_capacity(regime.rounds); turns.len()];
     for _ in 0..regime.rounds {
-        for (pass, times) in passes.iter().zip(&mut times) {
-            repeat(pass, input, regime.warm_up);
-            let (passes, time) = repeat(pass, input, regime.timed);
+        for (turn, times) in turns.iter_mut().zip(&mut times) {
+            repeat(turn, regime.warm_up);
+            let (passes, time) = repeat(turn, regime.timed);
             times.push(time.as_secs_f64() * 1e9 / f64::from(passes));
         }
     }
@@ -60,15 +65,15 @@ pub fn medians<T: ?Sized>(
     times.into_iter().map(|times| median(times) / count as f64).collect()
 }
 
-/// Goes through the input so many times, or fewer if that takes long. Returns how many times, and how long it took.
-fn repeat<T: ?Sized>(pass: &PassOver<T>, input: &T, times: u32) -> (u32, Duration) {
+/// Does it so many times, or fewer if that takes long. Returns how many times, and how long it took.
+fn repeat(turn: &mut Turn<'_>, times: u32) -> (u32, Duration) {
     let start = Instant::now();
     for done in 0..times {
         let elapsed = start.elapsed();
         if done > 0 && elapsed > LONG {
             return (done, elapsed);
         }
-        pass(black_box(input));
+        turn();
     }
     (times, start.elapsed())
 }

@@ -1,28 +1,32 @@
-//! The hot path by criterion: one ray against one sphere, the nearest of a slice, and eye rays, each beside the textbook.
+//! Each public function by criterion, beside the textbook: one ray and one sphere, the nearest of a slice, eye rays.
 //!
 //! ```text
-//! cargo bench --bench intersect                  # everything, in about three minutes
-//! cargo bench --bench intersect -- f32/mixed     # what matches
-//! cargo bench --bench intersect -- --test        # each once, untimed
+//! cargo bench --bench throughput                  # everything, in under a minute
+//! cargo bench --bench throughput -- "f32, easy"   # what matches
+//! cargo bench --bench throughput -- --save-baseline before     # then, after a change: -- --baseline before
+//! cargo bench --bench throughput -- --test        # each once, untimed
 //! ```
 //!
-//! Each benchmark goes through inputs enough that the branch predictor does not learn them by heart. The timing loop
-//! inlines what it times; adding up what comes back is part of the time, for every method alike.
+//! This is for comparing one version with the next. Each benchmark goes through inputs enough that the branch predictor does
+//! not learn them by heart; `speed_vs_error` tells both, learned and not, in the same loop.
 #![allow(missing_docs, reason = "criterion's macros make public functions")]
 
 use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::measurement::WallTime;
-use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group};
 use eyeray::{Algebraic, Camera, Geometric, Hittable, Ray, Sphere, Vector, ViewRect, nearest};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-#[path = "../tests/support/families.rs"]
-mod families;
+mod measure;
 mod methods;
+#[path = "../tests/support/mod.rs"]
+mod support;
 
-use families::{Case, FAMILIES, Family, Precision, Rng};
+use measure::arguments::Effort;
+use measure::{Measured, Test, Timed, page};
+use support::families::{Case, FAMILIES, Family, Precision, Rng};
 
 const SEED: u64 = 20;
 
@@ -43,88 +47,68 @@ fn cases<V: Precision>(
     std::iter::repeat_with(|| next(&mut rng)).filter(wanted).take(CASES).collect()
 }
 
-/// Times `test` over all the cases: the sum of what it returns keeps its work alive.
-fn total<V: Precision, T: std::iter::Sum>(
+/// Times `test` over all the cases.
+fn time<V: Measured, T: 'static>(
     group: &mut BenchmarkGroup<'_, WallTime>,
     name: &str,
     cases: &[Case<V>],
-    test: impl Fn(&Ray<V>, &Sphere<V>) -> T,
+    test: impl Fn(&Ray<V>, &Sphere<V>) -> Option<T> + Sync + 'static,
 ) {
-    group.bench_function(name, |bencher| {
-        bencher
-            .iter(|| -> T { black_box(cases).iter().map(|(ray, sphere)| test(ray, sphere)).sum() });
-    });
-}
-
-/// Times `test` over all the cases, and has all that it returns stored.
-fn stored<V: Precision, T>(
-    group: &mut BenchmarkGroup<'_, WallTime>,
-    name: &str,
-    cases: &[Case<V>],
-    test: impl Fn(&Ray<V>, &Sphere<V>) -> T,
-) {
-    group.bench_function(name, |bencher| {
-        bencher.iter(|| {
-            for (ray, sphere) in black_box(cases) {
-                black_box(test(ray, sphere));
-            }
-        });
-    });
+    let test = Test::new(test);
+    let mut turn = test.turn(cases);
+    group.bench_function(name, |bencher| bencher.iter(&mut turn));
 }
 
 macro_rules! single_ray {
     ($function:ident, $module:ident, $vector:ident, $float:ident) => {
         fn $function(criterion: &mut Criterion) {
-            use methods::$module as published;
+            use methods::$module::{ahead, textbook, textbook_shading};
 
             const ALL: std::ops::Range<$float> = 0.0..$float::INFINITY;
             let is_hit = |(ray, sphere): &Case<$vector>| sphere.intersect(ray, ALL).is_some();
             let situations = [
-                ("mixed", cases(family("easy").$float, |_| true)),
-                ("hit", cases(family("easy").$float, is_hit)),
-                ("miss", cases(family("easy").$float, |case| !is_hit(case))),
-                ("inside", cases(family("inside").$float, |_| true)),
-                ("grazing", cases(family("grazing").$float, |_| true)),
+                ("easy", cases(family("easy").$float, |_| true)),
+                ("hits only", cases(family("easy").$float, is_hit)),
+                ("misses only", cases(family("easy").$float, |case| !is_hit(case))),
+                ("from inside", cases(family("inside").$float, |_| true)),
+                ("grazing the limb", cases(family("grazing").$float, |_| true)),
             ];
             for (situation, cases) in &situations {
-                let mut group =
-                    criterion.benchmark_group(format!("{}/{situation}", stringify!($float)));
+                let name = format!("{}, {situation}", stringify!($float));
+                let mut group = criterion.benchmark_group(name);
                 group.throughput(Throughput::Elements(cases.len() as u64));
 
-                total(&mut group, "nearest t, textbook", cases, |ray, sphere| {
-                    published::ahead(published::textbook(ray, sphere)).unwrap_or_default()
+                time(&mut group, "nearest root, textbook", cases, |ray, sphere| {
+                    ahead(textbook(ray, sphere))
                 });
-                total(&mut group, "nearest t, intersect", cases, |ray, sphere| {
-                    sphere.intersect(ray, ALL).map_or(0.0, |hit| hit.t)
+                time(&mut group, "nearest root, intersect", cases, |ray, sphere| {
+                    sphere.intersect(ray, ALL).map(|hit| hit.t)
                 });
-                total(&mut group, "nearest t, Algebraic", cases, |ray, sphere| {
-                    Algebraic(*sphere).intersect(ray, ALL).map_or(0.0, |hit| hit.t)
+                time(&mut group, "nearest root, Algebraic", cases, |ray, sphere| {
+                    Algebraic(*sphere).intersect(ray, ALL).map(|hit| hit.t)
                 });
-                total(&mut group, "nearest t, Geometric", cases, |ray, sphere| {
-                    Geometric(*sphere).intersect(ray, ALL).map_or(0.0, |hit| hit.t)
+                time(&mut group, "nearest root, Geometric", cases, |ray, sphere| {
+                    Geometric(*sphere).intersect(ray, ALL).map(|hit| hit.t)
                 });
 
-                stored(&mut group, "whole hit, textbook", cases, published::textbook_shading);
-                stored(&mut group, "whole hit, intersect", cases, |ray, sphere| {
+                time(&mut group, "point and normal, textbook", cases, textbook_shading);
+                time(&mut group, "point and normal, intersect", cases, |ray, sphere| {
                     sphere.intersect(ray, ALL)
                 });
 
-                total(&mut group, "occlusion, textbook", cases, |ray, sphere| {
-                    usize::from(published::ahead(published::textbook(ray, sphere)).is_some())
+                time(&mut group, "shadow ray, textbook", cases, |ray, sphere| {
+                    ahead(textbook(ray, sphere)).is_some().then_some(())
                 });
-                total(&mut group, "occlusion, occludes", cases, |ray, sphere| {
-                    usize::from(sphere.occludes(ray, ALL))
+                time(&mut group, "shadow ray, occludes", cases, |ray, sphere| {
+                    sphere.occludes(ray, ALL).then_some(())
                 });
 
-                let sum = |roots: Option<[$float; 2]>| roots.map_or(0.0, |[near, far]| near + far);
-                total(&mut group, "both roots, textbook", cases, |ray, sphere| {
-                    sum(published::textbook(ray, sphere))
+                time(&mut group, "both roots, textbook", cases, textbook);
+                time(&mut group, "both roots, roots_algebraic", cases, |ray, sphere| {
+                    sphere.roots_algebraic(ray)
                 });
-                total(&mut group, "both roots, roots_algebraic", cases, |ray, sphere| {
-                    sum(sphere.roots_algebraic(ray))
-                });
-                total(&mut group, "both roots, roots_geometric", cases, |ray, sphere| {
-                    sum(sphere.roots_geometric(ray))
+                time(&mut group, "both roots, roots_geometric", cases, |ray, sphere| {
+                    sphere.roots_geometric(ray)
                 });
             }
         }
@@ -152,8 +136,8 @@ macro_rules! nearest_of_slice {
                     })
                     .collect();
 
-                let mut group =
-                    criterion.benchmark_group(format!("{}/nearest of {count}", stringify!($float)));
+                let mut group = criterion
+                    .benchmark_group(format!("{}, nearest of {count}", stringify!($float)));
                 group.throughput(Throughput::Elements((count * RAYS) as u64));
                 group.bench_function("textbook", |bencher| {
                     bencher.iter(|| {
@@ -233,7 +217,7 @@ fn eye_rays(criterion: &mut Criterion) {
     ];
     for (projection, camera, camera_f64) in cameras {
         let (Ok(camera), Ok(camera_f64)) = (camera, camera_f64) else { continue };
-        let mut group = criterion.benchmark_group(format!("eye rays/{projection}"));
+        let mut group = criterion.benchmark_group(format!("eye rays, {projection}"));
         group.throughput(Throughput::Elements(u64::from(WIDTH) * u64::from(HEIGHT)));
 
         let basis = camera.basis();
@@ -265,9 +249,23 @@ fn eye_rays(criterion: &mut Criterion) {
 criterion_group! {
     name = benches;
     config = Criterion::default()
-        .sample_size(20)
-        .warm_up_time(Duration::from_millis(100))
-        .measurement_time(Duration::from_millis(300));
+        .sample_size(10)
+        .nresamples(1000)
+        .warm_up_time(Duration::from_millis(50))
+        .measurement_time(Duration::from_millis(150))
+        .without_plots();
     targets = single_ray_f32, single_ray_f64, nearest_f32, nearest_f64, eye_rays
 }
-criterion_main!(benches);
+
+fn main() -> std::io::Result<()> {
+    benches();
+    Criterion::default().configure_from_args().final_summary();
+    let once = std::env::args().any(|argument| argument == "--test");
+    let effort = if once { Effort::Test } else { Effort::Usual };
+    page::finish(
+        "throughput",
+        effort,
+        "Each public function beside the textbook, branches not predicted, one version beside the next: criterion's \
+estimates above, and in target/criterion.",
+    )
+}
