@@ -68,9 +68,7 @@ extern crate self as eyeray;
 
 mod algebraic;
 mod arithmetic;
-mod basis;
 mod camera;
-mod camera_error;
 mod chord;
 mod convert;
 mod double;
@@ -91,11 +89,9 @@ mod spheres;
 #[cfg(test)]
 mod testing;
 mod vector;
-mod view_rect;
 
 pub use algebraic::Algebraic;
-pub use camera::{Camera, Rays};
-pub use camera_error::CameraError;
+pub use camera::{Camera, CameraArgument, CameraError, Frame, Rays, ViewRect};
 pub use geometric::Geometric;
 pub use hit::Hit;
 pub use hittable::{Hittable, nearest};
@@ -107,7 +103,6 @@ pub use spheres::Lanes;
 #[cfg(feature = "alloc")]
 pub use spheres::Spheres;
 pub use vector::{Scalar, Vector};
-pub use view_rect::ViewRect;
 
 /// The examples of the README.
 #[cfg(doctest)]
