@@ -296,7 +296,7 @@ impl<V: Vector> Camera<V> {
     #[doc(alias("generate_ray", "eye_ray", "primary_ray", "camera_ray"))]
     pub fn ray(&self, uv: V::Vec2) -> Ray<V> {
         let DVec2 { x: u, y: v } = V::vec2_to_f64(uv);
-        self.ray_in_row(self.row(v), u)
+        self.ray_in_row(self.common(), self.row(v), u)
     }
 
     /// What the eye rays of one v have in common: v V, and in perspective all of s - e but u U.
@@ -310,17 +310,24 @@ impl<V: Vector> Camera<V> {
         }
     }
 
+    /// What all the eye rays have in common: their direction -W, or in perspective their origin.
+    #[inline]
+    fn common(&self) -> V {
+        V::from_f64(match self.projection {
+            Projection::Orthographic => DVec3::ZERO - self.frame.w,
+            Projection::Perspective { .. } => self.frame.eye,
+        })
+    }
+
     /// The eye ray of that row through u.
     #[inline]
-    fn ray_in_row(&self, row: DVec3, u: f64) -> Ray<V> {
-        let Frame { eye, w, .. } = self.frame;
+    fn ray_in_row(&self, common: V, row: DVec3, u: f64) -> Ray<V> {
         let s = row + u * self.frame.u;
-        let (origin, direction) = match self.projection {
-            Projection::Orthographic => (eye + s, DVec3::ZERO - w),
+        match self.projection {
+            Projection::Orthographic => Ray::new(V::from_f64(self.frame.eye + s), common),
             // s - e, without the eye: to add and subtract it would cost the digits that it has before s.
-            Projection::Perspective { .. } => (eye, s),
-        };
-        Ray::new(V::from_f64(origin), V::from_f64(direction))
+            Projection::Perspective { .. } => Ray::new(common, V::from_f64(s)),
+        }
     }
 
     /// Returns the eye ray through a point of an image of `width` by `height` pixels that shows the view rectangle.
@@ -351,7 +358,7 @@ impl<V: Vector> Camera<V> {
     pub fn pixel_ray(&self, pixel: V::Vec2, width: u32, height: u32) -> Ray<V> {
         let DVec2 { x, y } = V::vec2_to_f64(pixel);
         let [columns, rows] = self.axes(width, height);
-        self.ray_in_row(self.row(rows.at(y)), columns.at(x))
+        self.ray_in_row(self.common(), self.row(rows.at(y)), columns.at(x))
     }
 
     /// The two sides of an image on those of the view rectangle: rightwards and downwards.

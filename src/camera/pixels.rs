@@ -52,20 +52,17 @@ impl Axis {
         // A NaN where x is infinite.
         let low = x - high;
         let small = self.step_low * high + (self.step_high + self.step_low) * low;
-        Self::limited((self.start + self.step_high * high) + small)
+        let u = (self.start + self.step_high * high) + small;
+        // Infinity times a zero coordinate of the basis would be a NaN.
+        u.clamp(f64::MIN, f64::MAX)
     }
 
-    /// The same as [`at`](Self::at), at the center of a pixel: a multiple of 1/2, so that nothing is left for the low part.
+    /// The same as [`at`](Self::at), at the center of one of the pixels: a multiple of 1/2, so that nothing is left for the low
+    /// part, and between the ends, so that nothing overflows.
     ///
-    /// Not of an axis that begins at -0 and goes downwards, where zeros may differ in sign.
+    /// For an axis that goes upwards. Of one that begins at -0 and goes downwards, a zero might have another sign.
     #[inline]
     pub(super) fn at_center(&self, x: f64) -> f64 {
-        Self::limited((self.start + self.step_high * x) + self.step_low * x)
-    }
-
-    /// Infinity times a zero coordinate of the basis would be a NaN.
-    #[inline]
-    fn limited(u: f64) -> f64 {
-        u.clamp(f64::MIN, f64::MAX)
+        (self.start + self.step_high * x) + self.step_low * x
     }
 }

@@ -17,15 +17,16 @@ use crate::{Ray, Vector};
 #[must_use = "iterators are lazy and do nothing unless consumed"]
 pub struct Rays<V: Vector = glam::Vec3> {
     camera: Camera<V>,
+    common: V,
     columns: Axis,
     rows: Axis,
     width: u32,
     /// What is left of the pixels, counted row by row.
     pixels: Range<u64>,
-    /// The center of the next pixel, and what the rays of its row have in common.
-    x: f64,
-    y: f64,
-    row: DVec3,
+    /// The column and the row of the next pixel, unless the row has ended, and what the rays of that row have in common.
+    column: u32,
+    row: u32,
+    in_row: DVec3,
 }
 
 impl<V: Vector> Rays<V> {
@@ -34,40 +35,51 @@ impl<V: Vector> Rays<V> {
         let [columns, rows] = camera.axes(width, height);
         let mut rays = Self {
             camera: *camera,
+            common: camera.common(),
             columns,
             rows,
             width,
             pixels: 0..u64::from(width) * u64::from(height),
-            x: 0.5,
-            y: 0.5,
-            row: DVec3::ZERO,
+            column: 0,
+            row: 0,
+            in_row: DVec3::ZERO,
         };
-        rays.begin_row(0.5);
+        rays.begin_row(0);
         rays
     }
 
-    /// Goes to the first pixel of the row whose centers have this y.
+    /// Goes to the first pixel of a row.
     #[inline]
-    fn begin_row(&mut self, y: f64) {
-        self.x = 0.5;
-        self.y = y;
-        self.row = self.camera.row(self.rows.at(y));
+    fn begin_row(&mut self, row: u32) {
+        self.column = 0;
+        self.row = row;
+        self.in_row = self.row_of_rays(row);
     }
 
-    /// The center of a pixel. There must be one.
+    /// What the rays of a row have in common.
     #[inline]
-    fn center(&self, index: u64) -> (f64, f64) {
+    fn row_of_rays(&self, row: u32) -> DVec3 {
+        self.camera.row(self.rows.at(f64::from(row) + 0.5))
+    }
+
+    /// The ray of a column in such a row.
+    #[inline]
+    fn ray(&self, column: u32, in_row: DVec3) -> Ray<V> {
+        self.camera.ray_in_row(self.common, in_row, self.columns.at_center(f64::from(column) + 0.5))
+    }
+
+    /// The column and the row of a pixel. There must be one.
+    #[inline]
+    fn place(&self, index: u64) -> (u32, u32) {
         let width = u64::from(self.width);
-        // Both are below 2^32: exact.
-        #[expect(clippy::cast_precision_loss, reason = "columns and rows are below 2^32")]
-        let (column, row) = ((index % width) as f64, (index / width) as f64);
-        (column + 0.5, row + 0.5)
+        #[expect(clippy::cast_possible_truncation, reason = "columns and rows are counted in u32")]
+        ((index % width) as u32, (index / width) as u32)
     }
 
-    /// The ray through the center of a pixel, wherever it is.
-    fn ray(&self, index: u64) -> Ray<V> {
-        let (x, y) = self.center(index);
-        self.camera.ray_in_row(self.camera.row(self.rows.at(y)), self.columns.at_center(x))
+    /// The ray of a pixel, wherever it is.
+    fn ray_of(&self, index: u64) -> Ray<V> {
+        let (column, row) = self.place(index);
+        self.ray(column, self.row_of_rays(row))
     }
 }
 
@@ -77,20 +89,20 @@ impl<V: Vector> Iterator for Rays<V> {
     #[inline]
     fn next(&mut self) -> Option<Ray<V>> {
         self.pixels.next()?;
-        if self.x > f64::from(self.width) {
-            self.begin_row(self.y + 1.0);
+        if self.column == self.width {
+            self.begin_row(self.row + 1);
         }
-        let ray = self.camera.ray_in_row(self.row, self.columns.at_center(self.x));
-        self.x += 1.0;
+        let ray = self.ray(self.column, self.in_row);
+        self.column += 1;
         Some(ray)
     }
 
     fn nth(&mut self, n: usize) -> Option<Ray<V>> {
         let index = self.pixels.nth(n)?;
-        let (x, y) = self.center(index);
-        self.begin_row(y);
-        self.x = x + 1.0;
-        Some(self.camera.ray_in_row(self.row, self.columns.at_center(x)))
+        let (column, row) = self.place(index);
+        self.begin_row(row);
+        self.column = column + 1;
+        Some(self.ray(column, self.in_row))
     }
 
     #[inline]
@@ -112,12 +124,12 @@ impl<V: Vector> Iterator for Rays<V> {
 impl<V: Vector> DoubleEndedIterator for Rays<V> {
     #[inline]
     fn next_back(&mut self) -> Option<Ray<V>> {
-        self.pixels.next_back().map(|index| self.ray(index))
+        self.pixels.next_back().map(|index| self.ray_of(index))
     }
 
     #[inline]
     fn nth_back(&mut self, n: usize) -> Option<Ray<V>> {
-        self.pixels.nth_back(n).map(|index| self.ray(index))
+        self.pixels.nth_back(n).map(|index| self.ray_of(index))
     }
 }
 
