@@ -90,6 +90,8 @@ mod spheres;
 mod testing;
 mod vector;
 
+pub use glam;
+
 pub use algebraic::Algebraic;
 pub use camera::{Camera, CameraArgument, CameraError, Frame, Rays, ViewRect};
 pub use geometric::Geometric;

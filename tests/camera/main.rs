@@ -5,4 +5,5 @@ mod errors;
 mod exact;
 mod image;
 mod matrices;
+mod pixels;
 mod projection;
