@@ -11,37 +11,40 @@
 use glam::{DVec2, DVec3};
 
 use super::{Camera, Frame, Projection};
-use crate::arithmetic::scaling::{exponent, scale};
 use crate::{Scalar, Vector};
 
-/// A point as the camera sees it: how far it lies along U, V and -W from the eye, each divided by 2^`exponent`.
+/// A point as the camera sees it: how far it lies along U, V and -W from the eye, each times `scale`, a power of two.
 struct Seen {
     in_plane: DVec2,
     depth: f64,
-    exponent: i32,
+    scale: f64,
 }
+
+/// What is below can be subtracted, and multiplied by unit vectors and summed up, without overflow.
+const LARGE: f64 = f64::MAX * DOWN;
+const DOWN: f64 = 0.125;
+
+/// 2⁻⁵¹²: the products of what is below with unit vectors might lose digits among the subnormal numbers.
+const SMALL: f64 = f64::from_bits(0x1ff0_0000_0000_0000);
+/// 2⁶⁰⁰.
+const UP: f64 = f64::from_bits(0x6570_0000_0000_0000);
 
 impl<V: Vector> Frame<V> {
     /// Where the point is from the eye. Of a point that is not finite, nothing that is.
     fn see(&self, point: DVec3) -> Seen {
-        /// 2⁻¹: so that the difference does not overflow.
-        const HALF: f64 = 0.5;
-        /// What is below can be subtracted without overflow.
-        const LARGE: f64 = f64::MAX / 4.0;
-        let large = largest(point).max(largest(self.eye)) > LARGE;
-        let (from_eye, halved) = if large {
-            (point * HALF - self.eye * HALF, 1)
+        let eye = self.eye;
+        let (from_eye, scale) = if largest(point).max(largest(eye)) > LARGE {
+            (point * DOWN - eye * DOWN, DOWN)
+        } else if largest(point - eye) < SMALL {
+            ((point - eye) * UP, UP)
         } else {
-            (point - self.eye, 0)
+            (point - eye, 1.0)
         };
-        // With the largest coordinate between 1 and 2, no product with the basis loses digits, and no sum overflows.
-        let exponent = exponent(largest(from_eye));
-        let from_eye = from_eye.map(|coordinate| scale(coordinate, -exponent));
         Seen {
             in_plane: DVec2::new(from_eye.dot(self.u), from_eye.dot(self.v)),
             // Subtracted from 0, which is 0 and not -0 for what lies beside the eye.
             depth: 0.0 - from_eye.dot(self.w),
-            exponent: exponent + halved,
+            scale,
         }
     }
 }
@@ -53,17 +56,17 @@ impl<V: Vector> Camera<V> {
         if !point.is_finite() {
             return None;
         }
-        let Seen { in_plane, depth, exponent } = self.frame.see(point);
+        let Seen { in_plane, depth, scale } = self.frame.see(point);
         // No ray reaches what is not ahead of the eye.
         (depth > 0.0).then(|| match self.projection {
-            Projection::Orthographic => in_plane.map(|coordinate| scale(coordinate, exponent)),
+            Projection::Orthographic => in_plane / scale,
             Projection::Perspective { distance } => in_plane / depth * distance,
         })
     }
 
     pub(super) fn depth_of(&self, point: V) -> V::Scalar {
-        let Seen { depth, exponent, .. } = self.frame.see(point.to_f64());
-        V::Scalar::from_f64(scale(depth, exponent))
+        let Seen { depth, scale, .. } = self.frame.see(point.to_f64());
+        V::Scalar::from_f64(depth / scale)
     }
 }
 

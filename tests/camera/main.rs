@@ -3,7 +3,9 @@
 mod accuracy;
 mod errors;
 mod exact;
+mod frame;
 mod image;
+mod limits;
 mod matrices;
 mod pixels;
 mod projection;
