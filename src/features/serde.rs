@@ -55,7 +55,7 @@ impl<V: Vector + Serialize> Serialize for Frame<V> {
 }
 
 /// What no function could have made is an error that says why, as [`CameraError`] does. The basis need not be exact: the
-/// coordinates of the three vectors may each be off by as much as a careless reader of decimal numbers leaves them, 2 ulp.
+/// coordinates of the three vectors may each be off by 2 ulp, as a fast reader of decimal numbers leaves them.
 impl<'de, V: Vector + Deserialize<'de>> Deserialize<'de> for Frame<V> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         WrittenFrame::<V>::deserialize(deserializer)?.read().map_err(D::Error::custom)
@@ -140,11 +140,12 @@ impl<V: Vector> WrittenCamera<V, V::Scalar> {
     }
 }
 
-/// Whether these are unit vectors at right angles to one another, u × v = w, up to the rounding of their coordinates.
+/// Whether these are unit vectors at right angles to one another, u × v = w, up to how their coordinates are rounded and read.
 fn is_basis([u, v, w]: [DVec3; 3]) -> bool {
-    /// Each of the vectors is off by at most 2⁻⁵³, from the rounding of its coordinates: together 3 · 2⁻⁵³. The rounding of
-    /// the cross product adds at most 2 · 2⁻⁵³ a coordinate, and that of the difference next to nothing: less than 6 · 2⁻⁵³ in all.
-    const TOLERANCE: f64 = 3.0 * f64::EPSILON;
+    /// With h = 2⁻⁵³, each of the vectors is off by at most h from the rounding of its coordinates, and by 4 h where a reader of
+    /// decimal numbers rounds four times (the digits, a power of ten, their quotient, the decimal itself): together 15 h. The
+    /// rounding of the cross product adds at most 2 h a coordinate, and that of the difference next to nothing: 18 h are enough.
+    const TOLERANCE: f64 = 9.0 * f64::EPSILON;
     // False if there is a NaN.
     let equal = |a: DVec3, b: DVec3| (a - b).abs().cmple(DVec3::splat(TOLERANCE)).all();
     // Three zero vectors satisfy the equations as well.
