@@ -89,8 +89,10 @@ fn eye_rays(criterion: &mut Criterion) {
     let uvs: Vec<Vec2> = pixels.iter().copied().map(in_view_plane).collect();
     let wide = |points: &[Vec2]| -> Vec<DVec2> { points.iter().map(|uv| uv.as_dvec2()).collect() };
     let frame = Frame::look_at(EYE, Vec3::ZERO, Vec3::Y).expect("a frame");
-    let cameras =
-        [("perspective", frame.perspective(VIEW, DISTANCE)), ("orthographic", frame.orthographic(VIEW))];
+    let cameras = [
+        ("perspective", frame.perspective(VIEW, DISTANCE)),
+        ("orthographic", frame.orthographic(VIEW)),
+    ];
     for (projection, camera) in cameras {
         let camera = camera.expect("a camera");
         let throughput = Throughput::Elements(u64::from(WIDTH) * u64::from(HEIGHT));

@@ -6,8 +6,8 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use eyeray::{
-    Algebraic, Camera, CameraArgument, CameraError, Frame, Geometric, Hit, Hittable, Ray, Rays, Scalar,
-    Sphere, Spheres, Vector, ViewRect, nearest,
+    Algebraic, Camera, CameraArgument, CameraError, Frame, Geometric, Hit, Hittable, Ray, Rays,
+    Scalar, Sphere, Spheres, Vector, ViewRect, nearest,
 };
 use glam::{DVec2, DVec3, Vec2, Vec3};
 

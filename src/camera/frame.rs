@@ -291,11 +291,6 @@ fn finite<V: Vector>(vector: V, argument: CameraArgument) -> Result<DVec3, Camer
 impl<V: Vector> Debug for Frame<V> {
     fn fmt(&self, f: &mut Formatter<'_>) -> core::fmt::Result {
         let Self { eye, u, v, w, precision: _ } = self;
-        f.debug_struct("Frame")
-            .field("eye", eye)
-            .field("u", u)
-            .field("v", v)
-            .field("w", w)
-            .finish()
+        f.debug_struct("Frame").field("eye", eye).field("u", u).field("v", v).field("w", w).finish()
     }
 }

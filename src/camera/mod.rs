@@ -306,7 +306,9 @@ impl<V: Vector> Camera<V> {
         match self.projection {
             Projection::Orthographic => in_plane,
             // Subtracted from 0, which gives 0 and not -0, so that no sum with it is -0.
-            Projection::Perspective { distance } => (DVec3::ZERO - distance * self.frame.w) + in_plane,
+            Projection::Perspective { distance } => {
+                (DVec3::ZERO - distance * self.frame.w) + in_plane
+            }
         }
     }
 
@@ -354,7 +356,13 @@ impl<V: Vector> Camera<V> {
     /// ```
     #[inline]
     #[must_use]
-    #[doc(alias("unproject", "viewport_to_world", "screen_to_world", "screen_point_to_ray", "picking"))]
+    #[doc(alias(
+        "unproject",
+        "viewport_to_world",
+        "screen_to_world",
+        "screen_point_to_ray",
+        "picking"
+    ))]
     pub fn pixel_ray(&self, pixel: V::Vec2, width: u32, height: u32) -> Ray<V> {
         let DVec2 { x, y } = V::vec2_to_f64(pixel);
         let [columns, rows] = self.axes(width, height);

@@ -22,7 +22,7 @@ use crate::Scalar;
 /// # From a camera matrix
 ///
 /// A calibrated camera is often given by its focal lengths `fx` and `fy` and its principal point (`cx`, `cy`), all in pixels.
-/// Its view rectangle is in the plane at distance 1. In the usual convention, which is OpenCV's, the *center* of the first
+/// Its view rectangle is in the plane at distance 1. In the usual convention, which is that of `OpenCV`, the *center* of the first
 /// pixel is (0, 0), half a pixel from the corner of the image, where this crate's pixel coordinates begin:
 ///
 /// ```

@@ -79,7 +79,7 @@ impl<'de, V: Vector + Deserialize<'de>> Deserialize<'de> for Frame<V> {
 /// # Bit for bit
 ///
 /// A camera is read again bit for bit by every format that reads each `f64` as it was written. Binary formats do, and most texts. Of
-/// serde_json it takes the feature `float_roundtrip`: without it, an `f64` may come back an ulp off, and then so do most cameras,
+/// `serde_json` it takes the feature `float_roundtrip`: without it, an `f64` may come back an ulp off, and then so do most cameras,
 /// also those of [`Vec3`](glam::Vec3), and anything else in `f64`. Such a camera is read all the same, and its rays are as good
 /// in `f32`; in `f64` they are another ulp or two from the exact ones.
 impl<V: Vector + Serialize> Serialize for Camera<V>
@@ -131,9 +131,7 @@ impl<V: Vector> WrittenCamera<V, V::Scalar> {
         let frame: Frame<DVec3> = WrittenFrame { eye, basis }.read()?.cast();
         match projection {
             WrittenProjection::Orthographic => frame.orthographic(view),
-            WrittenProjection::Perspective { distance } => {
-                frame.perspective(view, distance.into())
-            }
+            WrittenProjection::Perspective { distance } => frame.perspective(view, distance.into()),
         }
         .map(Camera::cast)
         .map_err(ReadError::Camera)

@@ -39,8 +39,14 @@ fn a_vector_that_is_not_finite() {
                 errors(wrong, Vec3::ZERO, Vec3::Y),
                 [Some(CameraError::NotFinite(CameraArgument::Eye)); 3]
             );
-            assert_eq!(errors(EYE, wrong, Vec3::Y), [Some(CameraError::NotFinite(CameraArgument::Target)); 3]);
-            assert_eq!(errors(EYE, Vec3::ZERO, wrong), [Some(CameraError::NotFinite(CameraArgument::Up)); 3]);
+            assert_eq!(
+                errors(EYE, wrong, Vec3::Y),
+                [Some(CameraError::NotFinite(CameraArgument::Target)); 3]
+            );
+            assert_eq!(
+                errors(EYE, Vec3::ZERO, wrong),
+                [Some(CameraError::NotFinite(CameraArgument::Up)); 3]
+            );
         }
     }
 }
@@ -108,7 +114,11 @@ fn a_view_rectangle_that_is_not_finite() {
             ViewRect { left: value, right: value, ..VIEW },
             ViewRect { bottom: -value, top: value, ..VIEW },
         ] {
-            assert_eq!(view_error(wrong), Some(CameraError::NotFinite(CameraArgument::View)), "{wrong:?}");
+            assert_eq!(
+                view_error(wrong),
+                Some(CameraError::NotFinite(CameraArgument::View)),
+                "{wrong:?}"
+            );
         }
     }
     let too_wide = ViewRect { left: -f64::MAX, right: f64::MAX, bottom: -1.0, top: 1.0 };
@@ -138,7 +148,11 @@ fn a_field_of_view_out_of_range() {
         assert_eq!(fov_error(fov_y, 1.0), Some(CameraError::FovOutOfRange), "{fov_y}");
     }
     for fov_y in NOT_FINITE {
-        assert_eq!(fov_error(fov_y, 1.0), Some(CameraError::NotFinite(CameraArgument::FovY)), "{fov_y}");
+        assert_eq!(
+            fov_error(fov_y, 1.0),
+            Some(CameraError::NotFinite(CameraArgument::FovY)),
+            "{fov_y}"
+        );
     }
     assert_eq!(fov_error(1e-45, 1.0), None);
     assert_eq!(fov_error(f32::from_bits(PI.to_bits() - 1), 1.0), None);
@@ -154,7 +168,11 @@ fn an_aspect_that_is_not_positive() {
         assert_eq!(fov_error(1.0, aspect), Some(CameraError::AspectNotPositive), "{aspect}");
     }
     for aspect in [f32::NAN, f32::INFINITY] {
-        assert_eq!(fov_error(1.0, aspect), Some(CameraError::NotFinite(CameraArgument::Aspect)), "{aspect}");
+        assert_eq!(
+            fov_error(1.0, aspect),
+            Some(CameraError::NotFinite(CameraArgument::Aspect)),
+            "{aspect}"
+        );
     }
     assert_eq!(fov_error(1.0, 1e-45), None);
     assert_eq!(fov_error(1.0, f32::MAX), None);

@@ -45,10 +45,7 @@ fn the_constructors_are_short_for_a_frame() -> Result<(), CameraError> {
     let frame = Frame::look_at(eye, target, up)?;
     assert_eq!(frame.orthographic(VIEW), Camera::orthographic(eye, target, up, VIEW));
     assert_eq!(frame.perspective(VIEW, 0.7), Camera::perspective(eye, target, up, VIEW, 0.7));
-    assert_eq!(
-        frame.perspective_fov(0.9, 1.6),
-        Camera::perspective_fov(eye, target, up, 0.9, 1.6)
-    );
+    assert_eq!(frame.perspective_fov(0.9, 1.6), Camera::perspective_fov(eye, target, up, 0.9, 1.6));
     Ok(())
 }
 

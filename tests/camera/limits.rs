@@ -22,7 +22,7 @@ fn frames<V: Vector>() -> Result<Vec<Frame<V>>, CameraError> {
     Ok(frames)
 }
 
-/// A mouse position that is a NaN picks nothing: UnityRenderStreaming issue 929, p5.js issue 3749.
+/// A mouse position that is a NaN picks nothing: `UnityRenderStreaming` issue 929, p5.js issue 3749.
 fn check_not_finite<V: Vector>() -> Result<(), CameraError>
 where
     Sphere<V>: Hittable<V>,

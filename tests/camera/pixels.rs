@@ -140,7 +140,8 @@ fn check<V: Rounding>(case: &Case) -> Result<(), TestCaseError> {
     prop_assert_eq!(ray.origin, eye);
     let along = exact.direction(&uv, distance);
     let length = along.length();
-    let (ulp, bound) = if V::IS_SINGLE { (ulp_f32(length), ROUNDED) } else { (ulp_f64(length), DIRECTION) };
+    let (ulp, bound) =
+        if V::IS_SINGLE { (ulp_f32(length), ROUNDED) } else { (ulp_f64(length), DIRECTION) };
     let error = along.error(ray.direction.to_f64()) / ulp;
     prop_assert!(error <= bound, "direction {error} ulp");
 
@@ -194,9 +195,12 @@ fn check_projection<V: Rounding>(
 
     let pixel = camera.project_to_pixel(point, width, height).map(V::vec2_to_f64);
     let Some(computed) = pixel else { panic!("not seen") };
-    let [left, right, bottom, top] = [view.left, view.right, view.bottom, view.top].map(Number::new);
+    let [left, right, bottom, top] =
+        [view.left, view.right, view.bottom, view.top].map(Number::new);
     let sides = [(&left, &right, width), (&top, &bottom, height)];
-    for ((exact, computed), (start, end, pixels)) in uv.into_iter().zip(computed.to_array()).zip(sides) {
+    for ((exact, computed), (start, end, pixels)) in
+        uv.into_iter().zip(computed.to_array()).zip(sides)
+    {
         let side = end.minus(start);
         let exact = exact.minus(start).times(&Number::new(f64::from(pixels)), &side);
         let a_pixel = side.to_f64().abs() / f64::from(pixels);
@@ -232,8 +236,7 @@ fn a_direction_near_the_axis_of_a_wide_view_keeps_its_digits() {
     let (width, height) = (1001, 977);
     for (x, y) in [(700.7, 97.7), (700.5, 97.5), (701.0, 98.0), (700.699_999_9, 97.700_000_1)] {
         let pixel = dvec2(x, y);
-        let along =
-            exact.direction(&ViewPoint::of_pixel(view, pixel, width, height), distance);
+        let along = exact.direction(&ViewPoint::of_pixel(view, pixel, width, height), distance);
         let error = along.error(camera.pixel_ray(pixel, width, height).direction);
         assert!(error <= 2.0 * ulp_f64(along.length()), "{pixel}: {error:e}");
     }

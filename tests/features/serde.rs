@@ -6,7 +6,8 @@ use core::fmt::Debug;
 use core::ops::Range;
 
 use eyeray::{
-    Algebraic, Camera, CameraArgument, CameraError, Frame, Geometric, Hit, Hittable, Ray, Sphere, ViewRect,
+    Algebraic, Camera, CameraArgument, CameraError, Frame, Geometric, Hit, Hittable, Ray, Sphere,
+    ViewRect,
 };
 use glam::{DVec3, Vec3, dvec3, vec3};
 use proptest::prelude::*;
@@ -222,7 +223,7 @@ macro_rules! round_trips {
 round_trips!(plain_data_in_f32, cameras_in_f32, f32, f32s, vec3s);
 round_trips!(plain_data_in_f64, cameras_in_f64, f64, f64s, dvec3s);
 
-/// One that comes back an ulp off from a serde_json without `float_roundtrip`.
+/// One that comes back an ulp off from a `serde_json` without `float_roundtrip`.
 #[test]
 fn a_camera_of_many_digits() {
     let (eye, target, up) = (vec3(1.0, 2.0, 4.0), Vec3::ZERO, Vec3::Y);
