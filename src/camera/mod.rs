@@ -140,8 +140,8 @@ use pixels::Axis;
 /// - With [`DVec3`](glam::DVec3) the direction is within 7 ulp of its length, and the origin within
 ///   6 · 2⁻⁵³ (|e| + |u| + |v|).
 ///
-/// For `pixel_ray` this holds in images of up to 2²⁴ pixels a side and as far around them, and where the direction, or u and v of
-/// an orthographic camera, are not 2⁻¹⁸ times as short as the view rectangle is large.
+/// For `pixel_ray` this holds in images of up to 2²⁴ pixels a side and as far around them, wherever the direction is at least an
+/// eighth of a pixel long.
 ///
 /// A projected point is rounded once, from an `f64` that is off by at most this, with h = 2⁻⁵³ and f the vector from the eye to
 /// the point:

@@ -6,41 +6,42 @@
 //!
 //! Where a view rectangle reaches to both sides of the axis, the two terms cancel near it, and in plain `f64` what is left
 //! has the error of terms that may be far longer than the ray's direction. So the length of a pixel is kept as a sum of
-//! two `f64`, the first so short that its products with pixel coordinates are exact.
+//! three `f64`, the first two so short that their products with pixel coordinates are exact.
 
 use crate::arithmetic::pair::two_difference;
 
 /// One side of the image, and the side of the view rectangle that it shows.
 ///
-/// [`at`](Self::at) is off by at most 2 h |u| + 2⁻⁷² (|left| + |right|) + 2⁻⁶⁰ of a pixel, with h = 2⁻⁵³, for
-/// |x| < 2²⁴ and sides of fewer than 2²⁴ pixels, underflow aside:
+/// With h = 2⁻⁵³, [`at`](Self::at) is off by at most 2 h |u| and 2⁻⁶⁰ of a pixel, for |x| < 2²⁴ and sides of up to 2²⁴ pixels,
+/// underflow aside. At the center of a pixel, or wherever else x has 8 bits or fewer after the point, it is off by
+/// 2 h |u| alone, so that zero is zero:
 ///
-/// - `step_high · x_high` has 21 + 32 bits: exact. (Beyond 2²⁴ pixels it is rounded, by h of itself.)
-/// - The sum of that and the start is rounded by h of itself, and so is the sum of all.
-/// - The rest is small, `step_low` being at most 2⁻²⁰ of a pixel and `x_low` 2⁻⁹: so is what it is rounded by.
+/// - The products of the first two steps with the high part of x have 21 + 32 bits: they are exact. (Beyond 2²⁴ pixels the first
+///   is rounded, by h of itself.) The third step is at most 2⁻⁴⁰ of a pixel, and so is exact enough.
+/// - The sum of the first product and the start is rounded by h of itself, and so is the sum of all. What is between is 2⁻²⁰ of
+///   the first product, and where that and the start cancel to as little, their sum is exact.
+/// - The low part of x is at most 2⁻⁹, and its product with a pixel is rounded twice.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Axis {
     /// Where the view begins: u where x is 0.
     start: f64,
-    /// A pixel, rounded towards zero to 21 bits.
-    step_high: f64,
-    /// What is missing of it there.
-    step_low: f64,
+    /// A pixel: to 21 bits, 21 more, and the rest.
+    steps: [f64; 3],
 }
 
 impl Axis {
     /// The axis from `start` to `end`, divided into so many pixels; 0 counts as 1.
     #[inline]
     pub(super) fn new(start: f64, end: f64, pixels: u32) -> Self {
-        /// All but the last 32 of a float's 52 bits after the first.
-        const LEADING: u64 = u64::MAX << 32;
         let pixels = f64::from(pixels.max(1));
         let per_pixel = 1.0 / pixels;
         let length = two_difference(end, start);
-        let step_high = f64::from_bits((length.hi * per_pixel).to_bits() & LEADING);
-        // The product of 21 and 32 bits is exact, and near enough to the length that their difference is so too.
-        let rest = (length.hi - step_high * pixels) + length.lo;
-        Self { start, step_high, step_low: rest * per_pixel }
+        // Products of 21 and 32 bits are exact, and so near to what they are subtracted from that the differences are so too.
+        let first = leading_bits(length.hi * per_pixel);
+        let rest = (length.hi - first * pixels) + length.lo;
+        let second = leading_bits(rest * per_pixel);
+        let rest = rest - second * pixels;
+        Self { start, steps: [first, second, rest * per_pixel] }
     }
 
     /// The u at `x` pixels from the start. Beyond the largest `f64`, that; of a NaN or an infinity, a NaN.
@@ -51,8 +52,9 @@ impl Axis {
         let high = (x + ROUNDING) - ROUNDING;
         // A NaN where x is infinite.
         let low = x - high;
-        let small = self.step_low * high + (self.step_high + self.step_low) * low;
-        let u = (self.start + self.step_high * high) + small;
+        let [first, second, third] = self.steps;
+        let small = second * high + third * high + (first + second) * low;
+        let u = (self.start + first * high) + small;
         // Infinity times a zero coordinate of the basis would be a NaN.
         u.clamp(f64::MIN, f64::MAX)
     }
@@ -63,6 +65,15 @@ impl Axis {
     /// For an axis that goes upwards. Of one that begins at -0 and goes downwards, a zero might have another sign.
     #[inline]
     pub(super) fn at_center(&self, x: f64) -> f64 {
-        (self.start + self.step_high * x) + self.step_low * x
+        let [first, second, third] = self.steps;
+        (self.start + first * x) + (second * x + third * x)
     }
+}
+
+/// The number rounded towards zero to 21 bits.
+#[inline]
+fn leading_bits(x: f64) -> f64 {
+    /// All but the last 32 of the 52 bits after the first.
+    const LEADING: u64 = u64::MAX << 32;
+    f64::from_bits(x.to_bits() & LEADING)
 }

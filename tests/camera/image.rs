@@ -91,6 +91,36 @@ fn the_largest_image_is_counted_and_reached_to_its_end() -> Result<(), CameraErr
     Ok(())
 }
 
+/// The middle of an image looks straight ahead, and where else a pixel is on an axis, nothing is left of the other: exactly.
+#[test]
+fn what_is_on_an_axis_is_exactly_there() -> Result<(), CameraError> {
+    let frame = Frame::look_to(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y)?;
+    for pixels in [1, 2, 3, 7, 640, 1001, 1920, 65_537, 1 << 24] {
+        let size = f64::from(pixels);
+        for scale in [1.0, 0.1, 1e-3, 1.0 / 3.0, 7e20] {
+            let camera = frame.perspective(ViewRect::centered(1.6 * scale, 0.9 * scale), 1.0)?;
+            let middle = camera.pixel_ray(dvec2(0.5 * size, 0.5 * size), pixels, pixels);
+            assert_eq!(middle.direction, DVec3::NEG_Z, "{pixels} {scale}");
+            for (x, u) in [(0.0, camera.view().left), (size, camera.view().right)] {
+                let edge = camera.pixel_ray(dvec2(x, 0.5 * size), pixels, pixels);
+                assert_eq!(edge.direction, dvec3(u, 0.0, -1.0), "{pixels} {scale}");
+            }
+        }
+    }
+    // The axis is at so many sevenths of the image.
+    for pixels in [7, 49, 1001, 7 * 1_000_003] {
+        for part in [1, 2, 3, 4, 5, 6] {
+            let (before, after) = (f64::from(part) / 8.0, f64::from(7 - part) / 8.0);
+            let view = ViewRect { left: -before, right: after, bottom: -after, top: before };
+            let on_axis = f64::from(pixels / 7 * part);
+            let camera = frame.perspective(view, 1e-9)?;
+            let ray = camera.pixel_ray(dvec2(on_axis, on_axis), pixels, pixels);
+            assert_eq!(ray.direction, dvec3(0.0, 0.0, -1e-9), "{part} {pixels}");
+        }
+    }
+    Ok(())
+}
+
 /// Each ray, taken from the front, from the back and by its number, has the bits of its pixel's.
 fn check_bits(camera: &Camera<DVec3>, width: u32, height: u32) {
     let bits = |ray: Ray<DVec3>| {

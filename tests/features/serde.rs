@@ -1,6 +1,6 @@
 //! What is written is what is read, bit for bit, in JSON and in a binary format, and what is no camera is not read as one.
 //!
-//! Of serde_json, this takes the feature `float_roundtrip`; `tests/json` does without.
+//! Of `serde_json`, this takes the feature `float_roundtrip`; `tests/json` does without.
 
 use core::fmt::Debug;
 use core::ops::Range;
