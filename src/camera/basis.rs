@@ -26,8 +26,7 @@ pub(super) fn basis(from: DVec3, to: DVec3, up: DVec3) -> Option<[DVec3; 3]> {
         sum([[up[i], from[j]], [-up[i], to[j]], [-up[j], from[i]], [up[j], to[i]]])
     }))?;
     let v = w.cross(u);
-    // Adding 0 turns -0 into 0.
-    Some([u, v, w].map(|axis| axis.map(|coordinate| coordinate.hi + 0.0).into()))
+    Some([u, v, w].map(|axis| axis.map(|coordinate| coordinate.hi).into()))
 }
 
 /// The sum of the products.

@@ -140,18 +140,19 @@ use pixels::Axis;
 /// - With [`DVec3`](glam::DVec3) the direction is within 7 ulp of its length, and the origin within
 ///   6 · 2⁻⁵³ (|e| + |u| + |v|).
 ///
-/// For `pixel_ray` this holds in images of up to 2²⁴ pixels a side and as far around them, wherever the direction is at least an
-/// eighth of a pixel long.
+/// For `pixel_ray` this holds in images of up to 2²⁴ pixels a side and as far around them, where the direction, or
+/// |e| + |u| + |v|, is at least an eighth of a pixel long. At the center of a pixel it holds however short they are, so that the
+/// middle of a centered view is exactly straight ahead.
 ///
 /// A projected point is rounded once, from an `f64` that is off by at most this, with h = 2⁻⁵³ and f the vector from the eye to
 /// the point:
 ///
-/// - [`depth`](Self::depth), and u and v of an orthographic camera, by 6 h |f|;
+/// - [`depth`](Self::depth), and u and v of an orthographic camera, by 5 h |f|;
 /// - u and v of a perspective camera by 6 h L (1 + L / distance), with L the length of the direction of the ray that reaches the
 ///   point: little, unless the point is seen far aside;
-/// - [`project_to_pixel`](Self::project_to_pixel) by what u or v is off, counted in pixels, and by 5 h of itself.
+/// - [`project_to_pixel`](Self::project_to_pixel) by what u or v is off, counted in pixels, and by 4 h of itself.
 ///
-/// `cargo test --test camera accuracy` compares all of them with exact integers.
+/// `cargo test --test camera accura` compares all of them with exact integers.
 ///
 /// There is nothing in it but sums, products, quotients and square roots, so a camera is the same on every machine, unless
 /// the tangent of [`perspective_fov`](Self::perspective_fov) is not.

@@ -53,7 +53,7 @@ impl Axis {
         // A NaN where x is infinite.
         let low = x - high;
         let [first, second, third] = self.steps;
-        let small = second * high + third * high + (first + second) * low;
+        let small = second * high + third * high + (first + second + third) * low;
         let u = (self.start + first * high) + small;
         // Infinity times a zero coordinate of the basis would be a NaN.
         u.clamp(f64::MIN, f64::MAX)

@@ -182,6 +182,9 @@ fn an_aspect_that_is_not_positive() {
         Camera::perspective_fov(DVec3::Z, DVec3::ZERO, DVec3::Y, fov_y, aspect).err()
     };
     assert_eq!(error(3.0, f64::MAX), Some(CameraError::NotFinite(CameraArgument::Aspect)));
+    // Half of it would be finite.
+    assert_eq!(error(1.5, f64::MAX), Some(CameraError::NotFinite(CameraArgument::Aspect)));
+    assert_eq!(error(1.5, f64::MAX / 2.0), None);
     assert_eq!(error(1e-200, 1e-200), Some(CameraError::EmptyView));
 }
 
