@@ -77,8 +77,12 @@ hittable_as_its_content! {
 hittable_as_its_content! {
     [H: Hittable<V> + ?Sized] alloc::boxed::Box<H> => H;
     [H: Hittable<V> + ?Sized] alloc::rc::Rc<H> => H;
-    [H: Hittable<V> + ?Sized] alloc::sync::Arc<H> => H;
     [H: Hittable<V>] alloc::vec::Vec<H> => [H];
+}
+
+#[cfg(all(feature = "alloc", target_has_atomic = "ptr"))]
+hittable_as_its_content! {
+    [H: Hittable<V> + ?Sized] alloc::sync::Arc<H> => H;
 }
 
 impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {

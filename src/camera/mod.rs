@@ -152,7 +152,7 @@ use pixels::Axis;
 ///   point: little, unless the point is seen far aside;
 /// - [`project_to_pixel`](Self::project_to_pixel) by what u or v is off, counted in pixels, and by 4 h of itself.
 ///
-/// `cargo test --test camera accura` compares all of them with exact integers.
+/// `cargo test --test camera accuracy` compares all of them with exact integers.
 ///
 /// There is nothing in it but sums, products, quotients and square roots, so a camera is the same on every machine, unless
 /// the tangent of [`perspective_fov`](Self::perspective_fov) is not.

@@ -150,13 +150,14 @@ fn check_bits(camera: &Camera<DVec3>, width: u32, height: u32) {
 fn rays_have_the_bits_of_their_pixels() -> Result<(), CameraError> {
     let frame = Frame::look_at(dvec3(0.1, 0.2, 0.3), DVec3::ZERO, DVec3::Y)?;
     let axes = Frame::look_to(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y)?;
+    let largest_but_one = f64::from_bits(f64::MAX.to_bits() - 1);
     for view in [
         ViewRect::centered(1.6, 0.9),
         ViewRect { left: -0.3, right: 1.1, bottom: -0.7, top: 0.1 },
         ViewRect { left: 1e9, right: 1e9 + 0.1, bottom: -1e9, top: -1e9 + 0.1 },
         ViewRect { left: 0.0, right: 1e-310, bottom: -1e-310, top: -0.0 },
         ViewRect { left: -8e307, right: 8e307, bottom: 1.7e308, top: f64::MAX },
-        ViewRect { left: f64::MAX.next_down(), right: f64::MAX, bottom: -f64::MAX, top: 0.0 },
+        ViewRect { left: largest_but_one, right: f64::MAX, bottom: -f64::MAX, top: 0.0 },
     ] {
         for (width, height) in [(1, 1), (1, 7), (7, 1), (16, 9), (33, 21)] {
             for frame in [frame, axes] {
