@@ -6,7 +6,7 @@
 //! ```
 //!
 //! What is timed makes every ray of an image of 160 by 90 pixels and hands it on. `ray` and the textbook are given (u, v) from
-//! an array, `pixel_ray` the center of the pixel likewise.
+//! an array, `pixel_ray` the center of the pixel likewise, from which `ray` must otherwise compute (u, v) first.
 #![allow(missing_docs, reason = "criterion's macros make public functions")]
 
 use std::hint::black_box;
@@ -29,10 +29,17 @@ fn pixel_centers() -> Vec<Vec2> {
     (0..HEIGHT).flat_map(row).collect()
 }
 
-/// The point of the view plane that a pixel shows.
-fn in_view_plane(pixel: Vec2) -> Vec2 {
-    let part = pixel / Vec2::new(f32::from(WIDTH), f32::from(HEIGHT));
-    Vec2::new(VIEW.left + VIEW.width() * part.x, VIEW.top - VIEW.height() * part.y)
+/// The point of the view plane that a pixel shows, by the lecture's formula.
+macro_rules! in_view_plane {
+    ($pixel:expr, $vec2:ident, $float:ident) => {{
+        let [left, right, bottom, top] =
+            [VIEW.left, VIEW.right, VIEW.bottom, VIEW.top].map($float::from);
+        let (width, height) = ($float::from(WIDTH), $float::from(HEIGHT));
+        $vec2::new(
+            left + (right - left) * ($pixel.x / width),
+            top - (top - bottom) * ($pixel.y / height),
+        )
+    }};
 }
 
 /// Times making all the rays of an image.
@@ -68,11 +75,18 @@ fn textbook(group: &mut BenchmarkGroup<'_, WallTime>, camera: &Camera, uvs: &[Ve
 }
 
 macro_rules! rows {
-    ($group:ident, $camera:ident, $uvs:expr, $pixels:expr) => {
-        let (uvs, pixels, camera): (Vec<_>, Vec<_>, _) = ($uvs, $pixels, $camera);
+    ($group:ident, $camera:ident, $pixels:expr, $vec2:ident, $float:ident) => {
+        let (pixels, camera): (Vec<$vec2>, _) = ($pixels, $camera);
+        let uvs: Vec<$vec2> =
+            pixels.iter().map(|pixel| in_view_plane!(pixel, $vec2, $float)).collect();
         image(&mut $group, "ray", || {
             let camera = black_box(camera);
             black_box(&uvs).iter().map(move |uv| camera.ray(*uv))
+        });
+        image(&mut $group, "ray, (u, v) of the pixel", || {
+            let camera = black_box(camera);
+            let uv = |pixel: &$vec2| in_view_plane!(pixel, $vec2, $float);
+            black_box(&pixels).iter().map(move |pixel| camera.ray(uv(pixel)))
         });
         image(&mut $group, "pixel_ray", || {
             let camera = black_box(camera);
@@ -86,8 +100,7 @@ macro_rules! rows {
 
 fn eye_rays(criterion: &mut Criterion) {
     let pixels = pixel_centers();
-    let uvs: Vec<Vec2> = pixels.iter().copied().map(in_view_plane).collect();
-    let wide = |points: &[Vec2]| -> Vec<DVec2> { points.iter().map(|uv| uv.as_dvec2()).collect() };
+    let uvs: Vec<Vec2> = pixels.iter().map(|pixel| in_view_plane!(pixel, Vec2, f32)).collect();
     let frame = Frame::look_at(EYE, Vec3::ZERO, Vec3::Y).expect("a frame");
     let cameras = [
         ("perspective", frame.perspective(VIEW, DISTANCE)),
@@ -100,12 +113,12 @@ fn eye_rays(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(format!("{projection}/f32"));
         group.throughput(throughput.clone());
         textbook(&mut group, &camera, &uvs);
-        rows!(group, camera, uvs.clone(), pixels.clone());
+        rows!(group, camera, pixels.clone(), Vec2, f32);
 
         let camera = Camera::<DVec3>::from(camera);
         let mut group = criterion.benchmark_group(format!("{projection}/f64"));
         group.throughput(throughput);
-        rows!(group, camera, wide(&uvs), wide(&pixels));
+        rows!(group, camera, pixels.iter().map(|pixel| pixel.as_dvec2()).collect(), DVec2, f64);
     }
 }
 

@@ -37,7 +37,8 @@ fn collections_have_the_nearest_hit() {
     check(&Rc::new(SCENE));
     check(&Arc::new(SCENE));
     check(&[&SCENE[0], &SCENE[1]]);
-    assert_eq!(t(&[Sphere::default(); 0], ALL), None);
+    let none: [Sphere; 0] = [];
+    assert_eq!(t(&none, ALL), None);
 }
 
 #[test]
