@@ -124,6 +124,32 @@ fn the_smallest_points_ahead_are_seen() -> Result<(), CameraError> {
 }
 
 #[test]
+fn the_smallest_differences_from_an_eye_that_is_not_at_the_origin_are_seen()
+-> Result<(), CameraError> {
+    let steps = |count| DVec3::Z * f64::from_bits(count);
+    for camera in cameras(&Frame::look_to(steps(7), DVec3::NEG_Z, DVec3::Y)?)? {
+        assert_eq!(camera.depth(steps(3)), f64::from_bits(4));
+        assert_eq!(camera.depth(-steps(3)), f64::from_bits(10));
+        assert_eq!(camera.depth(steps(8)), -f64::from_bits(1));
+        assert_eq!(camera.project(steps(7)), None);
+        assert_eq!(camera.project(steps(6)), Some(DVec2::ZERO));
+    }
+    Ok(())
+}
+
+#[test]
+fn a_point_opposite_the_eye_is_seen() -> Result<(), CameraError> {
+    for size in [1e-320, 1e-160, 1.0, 1e160, 1e300, f64::MAX / 2.0] {
+        let eye = dvec3(0.0, 0.0, size);
+        for camera in cameras(&Frame::look_to(eye, DVec3::NEG_Z, DVec3::Y)?)? {
+            assert_eq!(camera.depth(-eye), 2.0 * size);
+            assert_eq!(camera.project(-eye), Some(DVec2::ZERO));
+        }
+    }
+    Ok(())
+}
+
+#[test]
 fn a_point_in_the_plane_of_the_eye_is_not_seen() -> Result<(), CameraError> {
     // In this plane the depth is 0 exactly, at this side of it positive, however little.
     for (direction, in_plane) in [
