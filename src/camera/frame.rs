@@ -12,8 +12,8 @@ use crate::{CameraArgument, CameraError, Vector, ViewRect};
 
 /// The camera frame: the eye e and the camera's basis, three unit vectors at right angles to one another.
 ///
-/// U points to the right of the image, V up, and W backwards, against the direction of view. A frame is a
-/// [`Camera`] without its view rectangle: it makes cameras, and [`Camera::frame`] gives it back without losing a digit.
+/// U points to the right of the image, V up, and W backwards, against the direction of view. A frame is what a [`Camera`] has
+/// besides its view rectangle and its projection: it makes cameras, and [`Camera::frame`] gives it back without losing a digit.
 ///
 /// ```
 /// use eyeray::{Frame, ViewRect};

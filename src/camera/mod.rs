@@ -468,7 +468,7 @@ impl<V: Vector> Camera<V> {
     ///
     /// Positive ahead, zero beside the eye, and negative behind it. Not finite if the point is not.
     ///
-    /// A ray from the eye that is not normalized reaches the point at `t = depth / distance` in perspective, and at
+    /// The eye ray of the point, whose direction is not normalized, reaches it at `t = depth / distance` in perspective, and at
     /// `t = depth` orthographically.
     ///
     /// ```
