@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::{Hit, Ray, Scalar, Sphere, ViewRect};
+use crate::{Camera, Frame, Hit, Ray, Scalar, Sphere, ViewRect};
 
 /// The same ray: exact.
 impl From<Ray<Vec3>> for Ray<DVec3> {
@@ -38,8 +38,38 @@ impl From<Hit<Vec3>> for Hit<DVec3> {
 /// The same rectangle: exact.
 impl From<ViewRect<f32>> for ViewRect<f64> {
     #[inline]
-    fn from(ViewRect { left, right, bottom, top }: ViewRect<f32>) -> Self {
-        Self { left: left.into(), right: right.into(), bottom: bottom.into(), top: top.into() }
+    fn from(view: ViewRect<f32>) -> Self {
+        view.map(f64::from)
+    }
+}
+
+/// The same frame: exact, because a frame keeps its basis in `f64` in both precisions.
+impl From<Frame<Vec3>> for Frame<DVec3> {
+    #[inline]
+    fn from(frame: Frame<Vec3>) -> Self {
+        frame.cast()
+    }
+}
+
+/// The same camera: exact, because a camera keeps all its numbers in `f64` in both precisions. Rounded to `f32`, its rays are
+/// those of the camera that it was made from.
+///
+/// ```
+/// use eyeray::Camera;
+/// use glam::{DVec3, Vec3, vec2};
+///
+/// # fn main() -> Result<(), eyeray::CameraError> {
+/// let camera = Camera::perspective_fov(Vec3::ONE, Vec3::ZERO, Vec3::Y, 0.9, 1.6)?;
+/// let wide = Camera::<DVec3>::from(camera);
+/// let uv = vec2(0.3, -0.2);
+/// assert_eq!(wide.ray(uv.as_dvec2()).to_f32(), camera.ray(uv));
+/// # Ok(())
+/// # }
+/// ```
+impl From<Camera<Vec3>> for Camera<DVec3> {
+    #[inline]
+    fn from(camera: Camera<Vec3>) -> Self {
+        camera.cast()
     }
 }
 
@@ -100,8 +130,6 @@ impl ViewRect<f64> {
     #[inline]
     #[must_use]
     pub fn to_f32(self) -> ViewRect<f32> {
-        let [left, right, bottom, top] =
-            [self.left, self.right, self.bottom, self.top].map(f32::from_f64);
-        ViewRect { left, right, bottom, top }
+        self.map(f32::from_f64)
     }
 }

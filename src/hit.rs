@@ -55,12 +55,18 @@ impl<V: Vector> Hit<V> {
     ///     fn intersect(&self, ray: &Ray, range: Range<f32>) -> Option<Hit> {
     ///         let t = -ray.origin.y / ray.direction.y;
     ///         let point = ray.at(t).with_y(0.0);
-    ///         range.contains(&t).then(|| Hit::new(t, point, Vec3::Y, f32::EPSILON))
+    ///         // Ahead, whatever the range says, and finite: not along the floor.
+    ///         let is_hit = t > 0.0 && range.contains(&t) && point.is_finite();
+    ///         is_hit.then(|| Hit::new(t, point, Vec3::Y, f32::EPSILON))
     ///     }
     /// }
     ///
     /// let ray = Ray::new(Vec3::Y, Vec3::NEG_Y);
     /// assert_eq!(Floor.intersect(&ray, 0.0..2.0).map(|hit| hit.t), Some(1.0));
+    ///
+    /// // It lies behind this ray, which looks up, and that one leaves it.
+    /// let (up, leaving) = (Ray::new(Vec3::Y, Vec3::Y), Ray::new(Vec3::ZERO, Vec3::Y));
+    /// assert!([up, leaving].iter().all(|ray| !Floor.occludes(ray, -2.0..2.0)));
     /// ```
     #[inline]
     pub const fn new(t: V::Scalar, point: V, normal: V, clearance: V::Scalar) -> Self {

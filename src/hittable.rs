@@ -17,48 +17,72 @@ use crate::{Hit, Ray, Vector};
 /// let far = Sphere::new(vec3(0.0, 0.0, -9.0), 1.0);
 /// let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
 ///
-/// // A slice of hittable things is hittable, and so is a reference to one, or a box.
-/// let scene = [far, near];
-/// let scene: &dyn Hittable = &scene.as_slice();
+/// // A slice of hittable things is hittable, and so is an array, a `Vec`, a reference, a `Box`, an `Rc` or an `Arc`.
+/// let scene: &dyn Hittable = &[far, near];
 /// assert_eq!(scene.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(2.0));
 ///
 /// // A shadow ray asks only whether anything is in the way, here of a lamp at t = 1.
 /// assert!(!scene.occludes(&ray, 0.0..1.0));
 /// ```
+///
+/// # What an implementation owes
+///
+/// A shape of your own keeps what this crate's spheres keep, for [`nearest`] and the shapes around it pass on what it returns:
+///
+/// - The `t` of a hit is finite and above 0, whatever the range says, and the range contains it. Else what lies behind a ray, or
+///   where it starts, counts as met.
+/// - The hit is the nearest of those.
+/// - A ray that is not finite or has a zero direction meets nothing, and neither does a range that is empty or has a NaN.
+/// - [`occludes`](Self::occludes) says what [`intersect`](Self::intersect) finds: `true` if and only if there is a hit.
+///
+/// [`Hit::new`] has an example.
 pub trait Hittable<V: Vector = glam::Vec3> {
-    /// The nearest hit whose `t`, as it is returned, is above 0 and in `range`; `None` if there is none.
+    /// Returns the nearest hit whose `t`, as it is returned, is above 0 and in `range`; `None` if there is none.
+    #[doc(alias("raycast", "ray_cast", "cast_ray", "trace", "hit"))]
     fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>>;
 
-    /// Whether anything is hit with `t` in `range`: what a shadow ray asks.
+    /// Returns whether anything is hit with `t` in `range`: what a shadow ray asks.
     #[inline]
+    #[doc(alias("occluded", "shadow_ray", "any_hit", "line_of_sight"))]
     fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         self.intersect(ray, range).is_some()
     }
 }
 
-impl<V: Vector, H: Hittable<V> + ?Sized> Hittable<V> for &H {
-    #[inline]
-    fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>> {
-        (**self).intersect(ray, range)
-    }
+/// What leads to something hittable is hittable as that is.
+macro_rules! hittable_as_its_content {
+    ($([$($parameters:tt)+] $type:ty => $content:ty;)+) => {$(
+        impl<V: Vector, $($parameters)+> Hittable<V> for $type {
+            #[inline]
+            fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>> {
+                let content: &$content = self;
+                content.intersect(ray, range)
+            }
 
-    #[inline]
-    fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
-        (**self).occludes(ray, range)
-    }
+            #[inline]
+            fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
+                let content: &$content = self;
+                content.occludes(ray, range)
+            }
+        }
+    )+};
+}
+
+hittable_as_its_content! {
+    [H: Hittable<V> + ?Sized] &H => H;
+    [H: Hittable<V>, const N: usize] [H; N] => [H];
 }
 
 #[cfg(feature = "alloc")]
-impl<V: Vector, H: Hittable<V> + ?Sized> Hittable<V> for alloc::boxed::Box<H> {
-    #[inline]
-    fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>> {
-        (**self).intersect(ray, range)
-    }
+hittable_as_its_content! {
+    [H: Hittable<V> + ?Sized] alloc::boxed::Box<H> => H;
+    [H: Hittable<V> + ?Sized] alloc::rc::Rc<H> => H;
+    [H: Hittable<V>] alloc::vec::Vec<H> => [H];
+}
 
-    #[inline]
-    fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
-        (**self).occludes(ray, range)
-    }
+#[cfg(all(feature = "alloc", target_has_atomic = "ptr"))]
+hittable_as_its_content! {
+    [H: Hittable<V> + ?Sized] alloc::sync::Arc<H> => H;
 }
 
 impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
@@ -73,7 +97,7 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
     }
 }
 
-/// Which of `objects` the ray meets first with `t` in `range`, and where: of equal `t`, the lowest index.
+/// Returns which of `objects` the ray meets first with `t` in `range`, and where: of equal `t`, the lowest index.
 ///
 /// Every object is tried in turn. Of spheres in `f32`, `Spheres` (with the feature `alloc`) gives the same answer several times
 /// as fast.
@@ -89,6 +113,8 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
 /// let found = nearest(&[far, near], &ray, 0.0..f32::INFINITY);
 /// assert_eq!(found.map(|(index, hit)| (index, hit.t)), Some((1, 2.0)));
 /// ```
+#[must_use]
+#[doc(alias("raycast", "closest_hit", "picking"))]
 pub fn nearest<V: Vector, H: Hittable<V>>(
     objects: &[H],
     ray: &Ray<V>,

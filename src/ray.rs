@@ -30,17 +30,19 @@ pub struct Ray<V = glam::Vec3> {
 }
 
 impl<V: Vector> Ray<V> {
-    /// The ray from `origin` along `direction`.
+    /// Creates the ray from `origin` along `direction`.
     #[inline]
+    #[must_use]
     pub const fn new(origin: V, direction: V) -> Self {
         Self { origin, direction }
     }
 
-    /// The point `origin + t direction`, computed in the precision of `V`.
+    /// Returns the point `origin + t direction`, computed in the precision of `V`.
     ///
     /// For the point where a ray meets a surface, [`Hit::point`](crate::Hit::point) is more accurate.
     #[inline]
     #[must_use]
+    #[doc(alias("point_at", "get_point"))]
     pub fn at(&self, t: V::Scalar) -> V {
         self.origin + self.direction * t
     }

@@ -2,14 +2,17 @@
 //! here, and then is one for the changelog and the version.
 
 use core::ops::Range;
+use std::rc::Rc;
+use std::sync::Arc;
 
 use eyeray::{
-    Algebraic, Camera, CameraError, Geometric, Hit, Hittable, Ray, Rays, Scalar, Sphere, Spheres,
-    Vector, ViewRect, nearest,
+    Algebraic, Camera, CameraArgument, CameraError, Frame, Geometric, Hit, Hittable, Ray, Rays,
+    Scalar, Sphere, Spheres, Vector, ViewRect, nearest,
 };
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 type Near<V> = Option<(usize, Hit<V>)>;
+type Framed<V> = Result<Frame<V>, CameraError>;
 type Built<V> = Result<Camera<V>, CameraError>;
 
 /// The API of a precision.
@@ -34,8 +37,15 @@ macro_rules! precision {
             hittable::<$V>(&Geometric(SPHERE));
             hittable::<$V>(&&SPHERE);
             hittable::<$V>([SPHERE].as_slice());
+            hittable::<$V>(&[SPHERE]);
+            hittable::<$V>(&vec![SPHERE]);
             let boxed: Box<dyn Hittable<$V>> = Box::new(SPHERE);
             hittable::<$V>(&boxed);
+            let shared: Rc<dyn Hittable<$V>> = Rc::new(SPHERE);
+            hittable::<$V>(&shared);
+            let shared: Arc<dyn Hittable<$V>> = Arc::new(SPHERE);
+            hittable::<$V>(&shared);
+            hittable::<$V>(&vec![shared]);
             let _: fn(&[Sphere<$V>], &Ray<$V>, Range<$S>) -> Near<$V> = nearest;
 
             let _: fn($S, $V, $V, $S) -> Hit<$V> = Hit::new;
@@ -48,6 +58,13 @@ macro_rules! precision {
             let view: ViewRect<$S> = ViewRect { left: -1.0, right: 1.0, bottom: -1.0, top: 1.0 };
             let _: fn($S, $S) -> ViewRect<$S> = ViewRect::centered;
             let _: ($S, $S) = (view.width(), view.height());
+            let _: fn($V, $V, $V) -> Framed<$V> = Frame::look_at;
+            let _: fn($V, $V, $V) -> Framed<$V> = Frame::look_to;
+            let _: fn(&Frame<$V>) -> $V = Frame::eye;
+            let _: fn(&Frame<$V>) -> [$V; 3] = Frame::basis;
+            let _: fn(&Frame<$V>, ViewRect<$S>) -> Built<$V> = Frame::orthographic;
+            let _: fn(&Frame<$V>, ViewRect<$S>, $S) -> Built<$V> = Frame::perspective;
+            let _: fn(&Frame<$V>, $S, $S) -> Built<$V> = Frame::perspective_fov;
             let _: fn($V, $V, $V, ViewRect<$S>) -> Built<$V> = Camera::orthographic;
             let _: fn($V, $V, $V, ViewRect<$S>, $S) -> Built<$V> = Camera::perspective;
             let _: fn($V, $V, $V, $S, $S) -> Built<$V> = Camera::perspective_fov;
@@ -55,6 +72,9 @@ macro_rules! precision {
             let _: fn(&Camera<$V>, $V2, u32, u32) -> Ray<$V> = Camera::pixel_ray;
             let _: fn(&Camera<$V>, u32, u32) -> Rays<$V> = Camera::rays;
             let _: fn(&Camera<$V>, $V) -> Option<$V2> = Camera::project;
+            let _: fn(&Camera<$V>, $V, u32, u32) -> Option<$V2> = Camera::project_to_pixel;
+            let _: fn(&Camera<$V>, $V) -> $S = Camera::depth;
+            let _: fn(&Camera<$V>) -> Frame<$V> = Camera::frame;
             let _: fn(&Camera<$V>) -> [$V; 3] = Camera::basis;
             let _: fn(&Camera<$V>) -> $V = Camera::eye;
             let _: fn(&Camera<$V>) -> ViewRect<$S> = Camera::view;
@@ -86,7 +106,7 @@ fn vector<V: Vector<Scalar = S>, S: Scalar>() {
 #[test]
 fn the_default_is_single_precision() {
     let _: (Ray, Sphere, Algebraic, Geometric) = Default::default();
-    let _: Option<(Hit, Camera, ViewRect)> = None;
+    let _: Option<(Hit, Frame, Camera, ViewRect)> = None;
     let _: Option<Box<dyn Hittable>> = None;
 }
 
@@ -96,6 +116,8 @@ fn from_one_precision_to_the_other() {
     let _: fn(Sphere) -> Sphere<DVec3> = From::from;
     let _: fn(Hit) -> Hit<DVec3> = From::from;
     let _: fn(ViewRect) -> ViewRect<f64> = From::from;
+    let _: fn(Frame) -> Frame<DVec3> = From::from;
+    let _: fn(Camera) -> Camera<DVec3> = From::from;
     let _: fn(Ray<DVec3>) -> Ray = Ray::to_f32;
     let _: fn(Sphere<DVec3>) -> Sphere = Sphere::to_f32;
     let _: fn(ViewRect<f64>) -> ViewRect = ViewRect::to_f32;
@@ -118,4 +140,21 @@ fn many_spheres() {
 fn errors() {
     let error = Camera::perspective_fov(Vec3::ZERO, Vec3::ZERO, Vec3::Y, 1.0, 1.0).err();
     let _: Option<&dyn core::error::Error> = error.as_ref().map(|error| error as _);
+    for argument in [
+        CameraArgument::Eye,
+        CameraArgument::Target,
+        CameraArgument::Direction,
+        CameraArgument::Up,
+        CameraArgument::View,
+        CameraArgument::Distance,
+        CameraArgument::FovY,
+        CameraArgument::Aspect,
+    ] {
+        let _: CameraError = CameraError::NotFinite(argument);
+    }
+}
+
+#[test]
+fn the_vectors_are_those_of_glam() {
+    let _: eyeray::glam::Vec3 = Vec3::ZERO;
 }

@@ -1,33 +1,68 @@
-//! [`Serialize`] and [`Deserialize`] for [`Camera`]; the plain data types derive them where they are declared.
+//! [`Serialize`] and [`Deserialize`] for [`Frame`] and [`Camera`]; the plain data types derive them where they are declared.
 
 use core::fmt::{Display, Formatter};
-use core::marker::PhantomData;
 
 use glam::DVec3;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::{Camera, CameraError, Vector, ViewRect};
+use crate::camera::Projection;
+use crate::{Camera, CameraArgument, CameraError, Frame, Scalar, Vector, ViewRect};
+
+/// A frame as it is written.
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "Frame")]
+struct WrittenFrame<V> {
+    eye: V,
+    /// U, V and W.
+    basis: [DVec3; 3],
+}
 
 /// A camera as it is written.
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "Camera")]
-struct Written<V, S> {
+struct WrittenCamera<V, S> {
     eye: V,
     /// U, V and W.
     basis: [DVec3; 3],
     view: ViewRect<f64>,
-    projection: Projection<S>,
+    projection: WrittenProjection<S>,
 }
 
 #[derive(Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Projection<S> {
+#[serde(rename = "Projection", rename_all = "lowercase")]
+enum WrittenProjection<S> {
     Orthographic,
     Perspective { distance: S },
 }
 
-/// A camera is written with the names of its accessors, and read again bit for bit:
+/// A frame is written with the names of its accessors:
+///
+/// ```json
+/// {
+///     "eye": [0.0, 0.0, 5.0],
+///     "basis": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+/// }
+/// ```
+///
+/// The basis is in `f64` in both precisions, as the frame keeps it: the direction of view and the up vector would not give back
+/// every bit of the basis that was once computed from them. It is read again bit for bit by a format that reads each `f64` as it
+/// was written, as [`Camera`] says.
+impl<V: Vector + Serialize> Serialize for Frame<V> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        WrittenFrame { eye: self.eye(), basis: [self.u, self.v, self.w] }.serialize(serializer)
+    }
+}
+
+/// What no function could have made is an error that says why, as [`CameraError`] does. The basis need not be exact: the
+/// coordinates of the three vectors may each be off by 2 ulp, as a fast reader of decimal numbers leaves them.
+impl<'de, V: Vector + Deserialize<'de>> Deserialize<'de> for Frame<V> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        WrittenFrame::<V>::deserialize(deserializer)?.read().map_err(D::Error::custom)
+    }
+}
+
+/// A camera is written with the names of its accessors:
 ///
 /// ```json
 /// {
@@ -39,60 +74,76 @@ enum Projection<S> {
 /// ```
 ///
 /// An orthographic projection is just `"orthographic"`. The basis and the view are in `f64` in both precisions, as the camera
-/// keeps them: its target and its up vector would not give back every bit of the basis that was once computed from them.
+/// keeps them.
+///
+/// # Bit for bit
+///
+/// A camera is read again bit for bit by every format that reads each `f64` as it was written. Binary formats do, and most texts. Of
+/// `serde_json` it takes the feature `float_roundtrip`: without it, an `f64` may come back an ulp off, and then so do most cameras,
+/// also those of [`Vec3`](glam::Vec3), and anything else in `f64`. Such a camera is read all the same, and its rays are as good
+/// in `f32`; in `f64` they are another ulp or two from the exact ones.
 impl<V: Vector + Serialize> Serialize for Camera<V>
 where
     V::Scalar: Serialize,
 {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let projection = match self.distance() {
-            None => Projection::Orthographic,
-            Some(distance) => Projection::Perspective { distance },
+        let Self { frame, view, projection } = *self;
+        let projection = match projection {
+            Projection::Orthographic => WrittenProjection::Orthographic,
+            Projection::Perspective { distance } => {
+                WrittenProjection::Perspective { distance: V::Scalar::from_f64(distance) }
+            }
         };
-        let basis = [self.u, self.v, self.w];
-        Written { eye: self.eye(), basis, view: self.view, projection }.serialize(serializer)
+        let basis = [frame.u, frame.v, frame.w];
+        WrittenCamera { eye: frame.eye(), basis, view, projection }.serialize(serializer)
     }
 }
 
-/// What no constructor could have made is an error that says why, as [`CameraError`] does. The basis need not be exact: the
-/// three vectors may be as far from unit and from right angles as the rounding of their coordinates leaves them.
+/// What no constructor could have made is an error that says why, as with a [`Frame`].
 impl<'de, V: Vector + Deserialize<'de>> Deserialize<'de> for Camera<V>
 where
     V::Scalar: Deserialize<'de>,
 {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Written::<V, V::Scalar>::deserialize(deserializer)?.read().map_err(D::Error::custom)
+        WrittenCamera::<V, V::Scalar>::deserialize(deserializer)?.read().map_err(D::Error::custom)
     }
 }
 
-impl<V: Vector> Written<V, V::Scalar> {
-    /// The camera, if its constructors could have made it.
-    fn read(self) -> Result<Camera<V>, ReadError> {
-        let Self { eye, basis: [u, v, w], view, projection } = self;
+impl<V: Vector> WrittenFrame<V> {
+    /// The frame, if there is one like that.
+    fn read(self) -> Result<Frame<V>, ReadError> {
+        let Self { eye, basis } = self;
         let eye = eye.to_f64();
         if !eye.is_finite() {
-            return Err(ReadError::Camera(CameraError::NotFinite("eye")));
+            return Err(ReadError::Camera(CameraError::NotFinite(CameraArgument::Eye)));
         }
-        if !is_basis([u, v, w]) {
+        if !is_basis(basis) {
             return Err(ReadError::Basis);
         }
-        // The rest is for the constructors to check.
-        let Camera { view, projection, .. } = match projection {
-            Projection::Orthographic => Camera::orthographic(DVec3::ZERO, -w, v, view),
-            Projection::Perspective { distance } => {
-                Camera::perspective(DVec3::ZERO, -w, v, view, distance.into())
-            }
-        }
-        .map_err(ReadError::Camera)?;
-        Ok(Camera { eye, u, v, w, view, projection, precision: PhantomData })
+        Ok(Frame::from_parts(eye, basis))
     }
 }
 
-/// Whether these are unit vectors at right angles to one another, u × v = w, up to the rounding of their coordinates.
+impl<V: Vector> WrittenCamera<V, V::Scalar> {
+    /// The camera, if its constructors could have made it.
+    fn read(self) -> Result<Camera<V>, ReadError> {
+        let Self { eye, basis, view, projection } = self;
+        let frame: Frame<DVec3> = WrittenFrame { eye, basis }.read()?.cast();
+        match projection {
+            WrittenProjection::Orthographic => frame.orthographic(view),
+            WrittenProjection::Perspective { distance } => frame.perspective(view, distance.into()),
+        }
+        .map(Camera::cast)
+        .map_err(ReadError::Camera)
+    }
+}
+
+/// Whether these are unit vectors at right angles to one another, u × v = w, up to how their coordinates are rounded and read.
 fn is_basis([u, v, w]: [DVec3; 3]) -> bool {
-    /// Each of the vectors is off by at most 2⁻⁵³, from the rounding of its coordinates: together 3 · 2⁻⁵³. The rounding of
-    /// the cross product adds at most 2 · 2⁻⁵³ a coordinate, and that of the difference next to nothing: less than 6 · 2⁻⁵³ in all.
-    const TOLERANCE: f64 = 3.0 * f64::EPSILON;
+    /// With h = 2⁻⁵³, each of the vectors is off by at most h from the rounding of its coordinates, and by 4 h where a reader of
+    /// decimal numbers rounds four times (the digits, a power of ten, their quotient, the decimal itself): together 15 h. The
+    /// rounding of the cross product adds at most 2 h a coordinate, and that of the difference next to nothing: 18 h are enough.
+    const TOLERANCE: f64 = 9.0 * f64::EPSILON;
     // False if there is a NaN.
     let equal = |a: DVec3, b: DVec3| (a - b).abs().cmple(DVec3::splat(TOLERANCE)).all();
     // Three zero vectors satisfy the equations as well.

@@ -5,16 +5,16 @@ use eyeray::{Camera, CameraError, ViewRect};
 use glam::{DVec2, DVec3, Vec2, Vec3, dvec3, vec3};
 use proptest::prelude::*;
 
-use crate::exact;
+use crate::exact::{self, ViewPoint};
 
 /// The distance between neighboring f32 at `value`.
-fn ulp_f32(value: f64) -> f64 {
+pub(crate) fn ulp_f32(value: f64) -> f64 {
     let exponent = value.log2().floor().clamp(-126.0, 127.0);
     2f64.powf(exponent - 23.0)
 }
 
 /// The distance between neighboring f64 at `value`.
-fn ulp_f64(value: f64) -> f64 {
+pub(crate) fn ulp_f64(value: f64) -> f64 {
     let exponent = value.log2().floor().max(-1022.0);
     f64::MIN_POSITIVE.max(2f64.powf(exponent)) * f64::EPSILON
 }
@@ -111,7 +111,7 @@ fn check_f32((eye, target, up, uv, distance): Case<Vec3, Vec2, f32>) -> Result<(
         prop_assert!(exact.error(computed.as_dvec3()) <= 0.87 * f64::from(f32::EPSILON) / 2.0);
     }
 
-    let direction = exact.direction(uv.as_dvec2(), f64::from(distance));
+    let direction = exact.direction(&ViewPoint::new(uv.as_dvec2()), f64::from(distance));
     let ray = perspective.ray(uv);
     prop_assert_eq!(ray.origin, eye);
     if direction.largest_coordinate() < f64::from(f32::MAX) {
@@ -120,7 +120,7 @@ fn check_f32((eye, target, up, uv, distance): Case<Vec3, Vec2, f32>) -> Result<(
         prop_assert!(error <= 0.87, "direction {error} ulp");
     }
 
-    let origin = exact.origin(uv.as_dvec2());
+    let origin = exact.origin(&ViewPoint::new(uv.as_dvec2()));
     let ray = orthographic.ray(uv);
     prop_assert_eq!(ray.direction, -orthographic.basis()[2]);
     if origin.largest_coordinate() < f64::from(f32::MAX) {
@@ -151,7 +151,7 @@ fn check_f64(
         let error = exact.error(computed) / f64::EPSILON;
         prop_assert!(error <= 0.87 / 2.0, "basis {error} ulp of 1");
     }
-    let direction = exact.direction(uv, distance);
+    let direction = exact.direction(&ViewPoint::new(uv), distance);
     if direction.length() < f64::MAX / 4.0 {
         let error = direction.error(camera.ray(uv).direction) / ulp_f64(direction.length());
         // A coordinate sums up three products. With L the length of the direction, they come to L at most, and are off by

@@ -2,7 +2,7 @@
 
 use core::f32::consts::{FRAC_PI_2, PI};
 
-use eyeray::{Camera, CameraError, ViewRect};
+use eyeray::{Camera, CameraArgument, CameraError, Frame, ViewRect};
 use glam::{DVec3, Vec3, vec3};
 
 const VIEW: ViewRect = ViewRect { left: -1.0, right: 1.0, bottom: -1.0, top: 1.0 };
@@ -37,10 +37,16 @@ fn a_vector_that_is_not_finite() {
             let wrong = Vec3::select(axis.cmpeq(Vec3::ONE), Vec3::splat(value), Vec3::ZERO);
             assert_eq!(
                 errors(wrong, Vec3::ZERO, Vec3::Y),
-                [Some(CameraError::NotFinite("eye")); 3]
+                [Some(CameraError::NotFinite(CameraArgument::Eye)); 3]
             );
-            assert_eq!(errors(EYE, wrong, Vec3::Y), [Some(CameraError::NotFinite("target")); 3]);
-            assert_eq!(errors(EYE, Vec3::ZERO, wrong), [Some(CameraError::NotFinite("up")); 3]);
+            assert_eq!(
+                errors(EYE, wrong, Vec3::Y),
+                [Some(CameraError::NotFinite(CameraArgument::Target)); 3]
+            );
+            assert_eq!(
+                errors(EYE, Vec3::ZERO, wrong),
+                [Some(CameraError::NotFinite(CameraArgument::Up)); 3]
+            );
         }
     }
 }
@@ -59,6 +65,26 @@ fn an_up_that_gives_no_direction() {
     assert_eq!(errors(EYE, Vec3::ZERO, Vec3::ZERO), [Some(CameraError::ZeroUp); 3]);
     assert_eq!(errors(EYE, Vec3::ZERO, Vec3::Z), [Some(CameraError::UpAlongView); 3]);
     assert_eq!(errors(EYE, Vec3::ZERO, Vec3::Z * -1e-40), [Some(CameraError::UpAlongView); 3]);
+}
+
+#[test]
+fn a_frame_that_looks_nowhere() {
+    let look_to = |eye, direction, up| Frame::look_to(eye, direction, up).err();
+    for value in NOT_FINITE {
+        for axis in Vec3::AXES {
+            let wrong = Vec3::select(axis.cmpeq(Vec3::ONE), Vec3::splat(value), Vec3::ZERO);
+            let error = |argument| Some(CameraError::NotFinite(argument));
+            assert_eq!(look_to(wrong, Vec3::Z, Vec3::Y), error(CameraArgument::Eye));
+            assert_eq!(look_to(EYE, wrong, Vec3::Y), error(CameraArgument::Direction));
+            assert_eq!(look_to(EYE, Vec3::Z, wrong), error(CameraArgument::Up));
+        }
+    }
+    assert_eq!(look_to(EYE, Vec3::ZERO, Vec3::Y), Some(CameraError::ZeroDirection));
+    assert_eq!(look_to(EYE, vec3(-0.0, 0.0, -0.0), Vec3::Y), Some(CameraError::ZeroDirection));
+    assert_eq!(look_to(EYE, Vec3::Z, Vec3::ZERO), Some(CameraError::ZeroUp));
+    assert_eq!(look_to(EYE, Vec3::Z, Vec3::Z * 3.0), Some(CameraError::UpAlongView));
+    assert_eq!(look_to(EYE, Vec3::Z, Vec3::Z * -1e-45), Some(CameraError::UpAlongView));
+    assert_eq!(look_to(EYE, Vec3::Z * 1e-45, vec3(1e-45, 0.0, f32::MAX)), None);
 }
 
 #[test]
@@ -88,12 +114,16 @@ fn a_view_rectangle_that_is_not_finite() {
             ViewRect { left: value, right: value, ..VIEW },
             ViewRect { bottom: -value, top: value, ..VIEW },
         ] {
-            assert_eq!(view_error(wrong), Some(CameraError::NotFinite("view")), "{wrong:?}");
+            assert_eq!(
+                view_error(wrong),
+                Some(CameraError::NotFinite(CameraArgument::View)),
+                "{wrong:?}"
+            );
         }
     }
     let too_wide = ViewRect { left: -f64::MAX, right: f64::MAX, bottom: -1.0, top: 1.0 };
     let error = Camera::orthographic(DVec3::Z, DVec3::ZERO, DVec3::Y, too_wide).err();
-    assert_eq!(error, Some(CameraError::NotFinite("view")));
+    assert_eq!(error, Some(CameraError::NotFinite(CameraArgument::View)));
 }
 
 #[test]
@@ -104,7 +134,7 @@ fn a_distance_that_is_not_positive() {
     for distance in NOT_FINITE {
         assert_eq!(
             distance_error(distance),
-            Some(CameraError::NotFinite("distance")),
+            Some(CameraError::NotFinite(CameraArgument::Distance)),
             "{distance}"
         );
     }
@@ -118,7 +148,11 @@ fn a_field_of_view_out_of_range() {
         assert_eq!(fov_error(fov_y, 1.0), Some(CameraError::FovOutOfRange), "{fov_y}");
     }
     for fov_y in NOT_FINITE {
-        assert_eq!(fov_error(fov_y, 1.0), Some(CameraError::NotFinite("fov_y")), "{fov_y}");
+        assert_eq!(
+            fov_error(fov_y, 1.0),
+            Some(CameraError::NotFinite(CameraArgument::FovY)),
+            "{fov_y}"
+        );
     }
     assert_eq!(fov_error(1e-45, 1.0), None);
     assert_eq!(fov_error(f32::from_bits(PI.to_bits() - 1), 1.0), None);
@@ -134,7 +168,11 @@ fn an_aspect_that_is_not_positive() {
         assert_eq!(fov_error(1.0, aspect), Some(CameraError::AspectNotPositive), "{aspect}");
     }
     for aspect in [f32::NAN, f32::INFINITY] {
-        assert_eq!(fov_error(1.0, aspect), Some(CameraError::NotFinite("aspect")), "{aspect}");
+        assert_eq!(
+            fov_error(1.0, aspect),
+            Some(CameraError::NotFinite(CameraArgument::Aspect)),
+            "{aspect}"
+        );
     }
     assert_eq!(fov_error(1.0, 1e-45), None);
     assert_eq!(fov_error(1.0, f32::MAX), None);
@@ -143,15 +181,19 @@ fn an_aspect_that_is_not_positive() {
     let error = |fov_y, aspect| {
         Camera::perspective_fov(DVec3::Z, DVec3::ZERO, DVec3::Y, fov_y, aspect).err()
     };
-    assert_eq!(error(3.0, f64::MAX), Some(CameraError::NotFinite("aspect")));
+    assert_eq!(error(3.0, f64::MAX), Some(CameraError::NotFinite(CameraArgument::Aspect)));
+    // Half of it would be finite.
+    assert_eq!(error(1.5, f64::MAX), Some(CameraError::NotFinite(CameraArgument::Aspect)));
+    assert_eq!(error(1.5, f64::MAX / 2.0), None);
     assert_eq!(error(1e-200, 1e-200), Some(CameraError::EmptyView));
 }
 
 #[test]
 fn every_error_is_a_sentence_that_names_its_argument() {
     for (error, sentence) in [
-        (CameraError::NotFinite("target"), "the camera's target is not finite"),
+        (CameraError::NotFinite(CameraArgument::Target), "the camera's target is not finite"),
         (CameraError::EyeAtTarget, "the camera's eye and target are the same point"),
+        (CameraError::ZeroDirection, "the camera's direction of view is zero"),
         (CameraError::ZeroUp, "the camera's up vector is zero"),
         (CameraError::UpAlongView, "the camera's up vector is parallel to the direction of view"),
         (CameraError::EmptyView, "the camera's view rectangle is empty"),
@@ -164,5 +206,21 @@ fn every_error_is_a_sentence_that_names_its_argument() {
     ] {
         let error: Box<dyn core::error::Error> = Box::new(error);
         assert_eq!(error.to_string(), sentence);
+    }
+}
+
+#[test]
+fn an_argument_is_called_what_the_functions_call_it() {
+    for (argument, name) in [
+        (CameraArgument::Eye, "eye"),
+        (CameraArgument::Target, "target"),
+        (CameraArgument::Direction, "direction"),
+        (CameraArgument::Up, "up"),
+        (CameraArgument::View, "view"),
+        (CameraArgument::Distance, "distance"),
+        (CameraArgument::FovY, "fov_y"),
+        (CameraArgument::Aspect, "aspect"),
+    ] {
+        assert_eq!(argument.to_string(), name);
     }
 }

@@ -1,8 +1,9 @@
 //! The lecture's camera in integers: the formulas evaluated on the given inputs, with no rounding that could matter.
 
+use eyeray::ViewRect;
 use glam::{DVec2, DVec3};
 use num_bigint::BigInt;
-use num_bigint::Sign::NoSign;
+use num_bigint::Sign::{Minus, NoSign};
 
 /// Every finite f64 is an integer multiple of 2^-1074.
 const INPUT_BITS: u32 = 1074;
@@ -51,12 +52,14 @@ fn unit(vector: &Vector) -> Vector {
 
 /// Whether up is exactly parallel to the direction of view.
 pub(crate) fn parallel(eye: DVec3, target: DVec3, up: DVec3) -> bool {
-    cross(&integers(up), &back(eye, target)).iter().all(|coordinate| coordinate.sign() == NoSign)
+    let back = difference(eye, target);
+    cross(&integers(up), &back).iter().all(|coordinate| coordinate.sign() == NoSign)
 }
 
-fn back(eye: DVec3, target: DVec3) -> Vector {
-    let (eye, target) = (integers(eye), integers(target));
-    [0, 1, 2].map(|i| &eye[i] - &target[i])
+/// a - b.
+fn difference(a: DVec3, b: DVec3) -> Vector {
+    let (a, b) = (integers(a), integers(b));
+    [0, 1, 2].map(|i| &a[i] - &b[i])
 }
 
 pub(crate) struct Camera {
@@ -66,7 +69,15 @@ pub(crate) struct Camera {
 
 impl Camera {
     pub(crate) fn new(eye: DVec3, target: DVec3, up: DVec3) -> Self {
-        let w = reduced(back(eye, target));
+        Self::of(eye, difference(eye, target), up)
+    }
+
+    pub(crate) fn look_to(eye: DVec3, direction: DVec3, up: DVec3) -> Self {
+        Self::of(eye, integers(-direction), up)
+    }
+
+    fn of(eye: DVec3, back: Vector, up: DVec3) -> Self {
+        let w = reduced(back);
         let u = reduced(cross(&reduced(integers(up)), &w));
         let v = reduced(cross(&w, &u));
         Self { eye, basis: [unit(&u), unit(&v), unit(&w)] }
@@ -78,21 +89,83 @@ impl Camera {
     }
 
     /// u U + v V - distance W: the direction of a perspective ray.
-    pub(crate) fn direction(&self, uv: DVec2, distance: f64) -> Exact {
+    pub(crate) fn direction(&self, uv: &ViewPoint, distance: f64) -> Exact {
         self.combine(uv, distance)
     }
 
     /// e + u U + v V: the origin of an orthographic ray.
-    pub(crate) fn origin(&self, uv: DVec2) -> Exact {
+    pub(crate) fn origin(&self, uv: &ViewPoint) -> Exact {
         let Exact(in_plane) = self.combine(uv, 0.0);
         let eye = integers(self.eye);
         Exact([0, 1, 2].map(|i| &in_plane[i] + (&eye[i] << UNIT_BITS)))
     }
 
-    fn combine(&self, uv: DVec2, distance: f64) -> Exact {
+    fn combine(&self, ViewPoint([x, y]): &ViewPoint, distance: f64) -> Exact {
         let [u, v, w] = &self.basis;
-        let (x, y, z) = (integer(uv.x), integer(uv.y), integer(distance));
-        Exact([0, 1, 2].map(|i| &x * &u[i] + &y * &v[i] - &z * &w[i]))
+        let z = integer(distance) << INPUT_BITS;
+        Exact([0, 1, 2].map(|i| (x * &u[i] + y * &v[i] - &z * &w[i]) >> INPUT_BITS))
+    }
+
+    /// How far the point is from the eye along U, V and -W.
+    pub(crate) fn see(&self, point: DVec3) -> [Number; 3] {
+        let from_eye = difference(point, self.eye);
+        let [u, v, w] = &self.basis;
+        [Number(dot(&from_eye, u)), Number(dot(&from_eye, v)), Number(-dot(&from_eye, w))]
+    }
+}
+
+/// A point (u, v) of the view plane, in multiples of 2^-2148.
+pub(crate) struct ViewPoint([BigInt; 2]);
+
+impl ViewPoint {
+    pub(crate) fn new(uv: DVec2) -> Self {
+        Self(uv.to_array().map(|coordinate| integer(coordinate) << INPUT_BITS))
+    }
+
+    /// Where a pixel is in the view rectangle, cut off after the last bit.
+    pub(crate) fn of_pixel(view: ViewRect<f64>, pixel: DVec2, width: u32, height: u32) -> Self {
+        let on_axis = |start, end, x, pixels| {
+            let (start, end) = (integer(start), integer(end));
+            (((&start * pixels) << INPUT_BITS) + (end - &start) * integer(x)) / pixels
+        };
+        let u = on_axis(view.left, view.right, pixel.x, width);
+        Self([u, on_axis(view.top, view.bottom, pixel.y, height)])
+    }
+
+    /// Its distance from the point straight ahead, in f64.
+    pub(crate) fn length(&self) -> f64 {
+        let ViewPoint([u, v]) = self;
+        to_f64(&((u * u + v * v).sqrt() >> (INPUT_BITS - UNIT_BITS)))
+    }
+}
+
+/// A number in multiples of 2^-1330.
+#[derive(Clone)]
+pub(crate) struct Number(BigInt);
+
+impl Number {
+    pub(crate) fn new(value: f64) -> Self {
+        Self(integer(value) << UNIT_BITS)
+    }
+
+    /// Itself times a quotient, cut off after the last bit.
+    pub(crate) fn times(&self, numerator: &Self, denominator: &Self) -> Self {
+        Self(&self.0 * &numerator.0 / &denominator.0)
+    }
+
+    pub(crate) fn minus(&self, other: &Self) -> Self {
+        Self(&self.0 - &other.0)
+    }
+
+    /// Which is next to f64.
+    pub(crate) fn to_f64(&self) -> f64 {
+        let magnitude = to_f64(&self.0.magnitude().clone().into());
+        if self.0.sign() == Minus { -magnitude } else { magnitude }
+    }
+
+    /// How far `computed` is from it, in f64.
+    pub(crate) fn error(&self, computed: f64) -> f64 {
+        self.minus(&Self::new(computed)).to_f64().abs()
     }
 }
 

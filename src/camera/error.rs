@@ -1,0 +1,108 @@
+//! Why there is no camera.
+
+use core::error::Error;
+use core::fmt::{Display, Formatter, Result};
+
+/// Why a [`Frame`](crate::Frame) or a [`Camera`](crate::Camera) could not be made: which argument is at fault, and how.
+///
+/// Where several are at fault, it names one of them.
+///
+/// ```
+/// use eyeray::{CameraArgument, CameraError, Frame};
+/// use glam::Vec3;
+///
+/// let frame = Frame::look_to(Vec3::ZERO, Vec3::NEG_Y, Vec3::Y);
+/// assert_eq!(frame, Err(CameraError::UpAlongView));
+///
+/// let frame = Frame::look_to(Vec3::ZERO, Vec3::NAN, Vec3::Y);
+/// assert_eq!(frame, Err(CameraError::NotFinite(CameraArgument::Direction)));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum CameraError {
+    /// The argument is a NaN or infinite, or has a coordinate that is.
+    ///
+    /// [`View`](CameraArgument::View) also stands for a width or a height that overflows `f64`, and
+    /// [`Aspect`](CameraArgument::Aspect) for an aspect ratio so large that the width of the view does.
+    NotFinite(CameraArgument),
+    /// The eye and the target are the same point, so there is no direction of view.
+    EyeAtTarget,
+    /// The direction of view is zero.
+    ZeroDirection,
+    /// The up vector is zero.
+    ZeroUp,
+    /// The up vector points exactly along the direction of view, or exactly against it.
+    UpAlongView,
+    /// The view rectangle has no area: its right is not greater than its left, or its top not than its bottom.
+    EmptyView,
+    /// The distance from the eye to the view plane is zero or negative.
+    DistanceNotPositive,
+    /// The vertical field of view is not between 0 and π, both excluded.
+    FovOutOfRange,
+    /// The aspect ratio, width over height, is zero or negative.
+    AspectNotPositive,
+}
+
+/// An argument of the functions that make a [`Frame`](crate::Frame) or a [`Camera`](crate::Camera), as [`CameraError`] names it.
+///
+/// ```
+/// use eyeray::CameraArgument;
+///
+/// assert_eq!(CameraArgument::FovY.to_string(), "fov_y");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum CameraArgument {
+    /// `eye`: where the camera stands.
+    Eye,
+    /// `target`: the point that it looks at.
+    Target,
+    /// `direction`: the direction of view.
+    Direction,
+    /// `up`: the direction that is upwards in the image.
+    Up,
+    /// `view`: the view rectangle.
+    View,
+    /// `distance`: from the eye to the view plane, the focal length.
+    Distance,
+    /// `fov_y`: the vertical field of view.
+    FovY,
+    /// `aspect`: the aspect ratio, width over height.
+    Aspect,
+}
+
+impl Display for CameraError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        f.write_str(match self {
+            Self::NotFinite(argument) => return write!(f, "the camera's {argument} is not finite"),
+            Self::EyeAtTarget => "the camera's eye and target are the same point",
+            Self::ZeroDirection => "the camera's direction of view is zero",
+            Self::ZeroUp => "the camera's up vector is zero",
+            Self::UpAlongView => "the camera's up vector is parallel to the direction of view",
+            Self::EmptyView => "the camera's view rectangle is empty",
+            Self::DistanceNotPositive => "the camera's distance to the view plane is not positive",
+            Self::FovOutOfRange => "the camera's field of view is not between 0 and π",
+            Self::AspectNotPositive => "the camera's aspect is not positive",
+        })
+    }
+}
+
+/// The argument's name in the functions that take it.
+impl Display for CameraArgument {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        f.write_str(match self {
+            Self::Eye => "eye",
+            Self::Target => "target",
+            Self::Direction => "direction",
+            Self::Up => "up",
+            Self::View => "view",
+            Self::Distance => "distance",
+            Self::FovY => "fov_y",
+            Self::Aspect => "aspect",
+        })
+    }
+}
+
+impl Error for CameraError {}

@@ -1,0 +1,143 @@
+//! The rays of an image, one after the other.
+
+use core::iter::FusedIterator;
+use core::ops::Range;
+
+use glam::DVec3;
+
+use super::Camera;
+use super::pixels::Axis;
+use crate::{Ray, Vector};
+
+/// The rays of an image, row by row: see [`Camera::rays`].
+///
+/// Its length is exact, except where `usize` cannot hold it, on targets of less than 64 bits: there `len` is
+/// `usize::MAX`. `nth`, `last` and `count` take no longer than `next`.
+#[derive(Clone, Debug)]
+#[must_use = "iterators are lazy and do nothing unless consumed"]
+pub struct Rays<V: Vector = glam::Vec3> {
+    camera: Camera<V>,
+    common: V,
+    columns: Axis,
+    rows: Axis,
+    width: u32,
+    /// What is left of the pixels, counted row by row.
+    pixels: Range<u64>,
+    /// The column and the row of the next pixel, unless the row has ended, and what the rays of that row have in common.
+    column: u32,
+    row: u32,
+    in_row: DVec3,
+}
+
+impl<V: Vector> Rays<V> {
+    #[inline]
+    pub(super) fn new(camera: &Camera<V>, width: u32, height: u32) -> Self {
+        let [columns, rows] = camera.axes(width, height);
+        let mut rays = Self {
+            camera: *camera,
+            common: camera.common(),
+            columns,
+            rows,
+            width,
+            pixels: 0..u64::from(width) * u64::from(height),
+            column: 0,
+            row: 0,
+            in_row: DVec3::ZERO,
+        };
+        rays.begin_row(0);
+        rays
+    }
+
+    /// Goes to the first pixel of a row.
+    #[inline]
+    fn begin_row(&mut self, row: u32) {
+        self.column = 0;
+        self.row = row;
+        self.in_row = self.row_of_rays(row);
+    }
+
+    /// What the rays of a row have in common.
+    #[inline]
+    fn row_of_rays(&self, row: u32) -> DVec3 {
+        self.camera.row(self.rows.at(f64::from(row) + 0.5))
+    }
+
+    /// The ray of a column in such a row.
+    #[inline]
+    fn ray(&self, column: u32, in_row: DVec3) -> Ray<V> {
+        self.camera.ray_in_row(self.common, in_row, self.columns.at_center(f64::from(column) + 0.5))
+    }
+
+    /// The column and the row of a pixel. There must be one.
+    #[inline]
+    fn place(&self, index: u64) -> (u32, u32) {
+        let width = u64::from(self.width);
+        #[expect(clippy::cast_possible_truncation, reason = "columns and rows are counted in u32")]
+        ((index % width) as u32, (index / width) as u32)
+    }
+
+    /// The ray of a pixel, wherever it is.
+    fn ray_of(&self, index: u64) -> Ray<V> {
+        let (column, row) = self.place(index);
+        self.ray(column, self.row_of_rays(row))
+    }
+}
+
+impl<V: Vector> Iterator for Rays<V> {
+    type Item = Ray<V>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Ray<V>> {
+        self.pixels.next()?;
+        if self.column == self.width {
+            self.begin_row(self.row + 1);
+        }
+        let ray = self.ray(self.column, self.in_row);
+        self.column += 1;
+        Some(ray)
+    }
+
+    fn nth(&mut self, n: usize) -> Option<Ray<V>> {
+        let index = self.pixels.nth(n)?;
+        let (column, row) = self.place(index);
+        self.begin_row(row);
+        self.column = column + 1;
+        Some(self.ray(column, self.in_row))
+    }
+
+    #[inline]
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.pixels.size_hint()
+    }
+
+    #[inline]
+    fn count(self) -> usize {
+        self.len()
+    }
+
+    #[inline]
+    fn last(mut self) -> Option<Ray<V>> {
+        self.next_back()
+    }
+}
+
+impl<V: Vector> DoubleEndedIterator for Rays<V> {
+    #[inline]
+    fn next_back(&mut self) -> Option<Ray<V>> {
+        self.pixels.next_back().map(|index| self.ray_of(index))
+    }
+
+    #[inline]
+    fn nth_back(&mut self, n: usize) -> Option<Ray<V>> {
+        self.pixels.nth_back(n).map(|index| self.ray_of(index))
+    }
+}
+
+impl<V: Vector> ExactSizeIterator for Rays<V> {
+    #[inline]
+    fn len(&self) -> usize {
+        self.pixels.size_hint().0
+    }
+}
+
+impl<V: Vector> FusedIterator for Rays<V> {}
