@@ -102,10 +102,7 @@ pub use hittable::{Hittable, nearest};
 pub use ray::Ray;
 pub use sphere::Sphere;
 #[cfg(feature = "alloc")]
-#[doc(hidden)]
-pub use spheres::Lanes;
-#[cfg(feature = "alloc")]
-pub use spheres::Spheres;
+pub use spheres::{SphereBvh, Spheres};
 pub use vector::{Scalar, Vector};
 pub use view_rect::ViewRect;
 

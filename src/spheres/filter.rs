@@ -58,7 +58,7 @@ pub(crate) const MARGIN: f32 = 8.0 * f32::EPSILON;
 const LEAST: f64 = f64::from_bits((1023 - 99) << 52); // 2^-99
 
 /// The largest coordinate, radius and length that the filter computes with.
-const LARGEST: f32 = f32::from_bits((127 + 60) << 23); // 2^60
+pub(super) const LARGEST: f32 = f32::from_bits((127 + 60) << 23); // 2^60
 
 /// The least square of a direction's length that it computes with.
 const LEAST_SQUARE: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
@@ -90,10 +90,10 @@ impl Block {
     pub(crate) fn set(&mut self, lane: usize, sphere: &Sphere, margin: f32) {
         let Sphere { center, radius } = *sphere;
         let (center, negative_radius_squared) =
-            if !center.is_finite() || !radius.is_finite() || radius < 0.0 {
+            if !can_be_met(sphere) {
                 // Nothing meets it.
                 (Vec3::ZERO, f32::INFINITY)
-            } else if center.abs().max_element() > LARGEST || radius > LARGEST {
+            } else if !is_in_reach(sphere) {
                 (Vec3::ZERO, f32::NEG_INFINITY)
             } else {
                 (center, -enlarged_square(radius, margin))
@@ -102,6 +102,11 @@ impl Block {
         self.y[lane] = center.y;
         self.z[lane] = center.z;
         self.negative_radius_squared[lane] = negative_radius_squared;
+    }
+
+    /// Takes the sphere out of a lane: it is dropped from now on.
+    pub(crate) fn clear(&mut self, lane: usize) {
+        self.negative_radius_squared[lane] = f32::INFINITY;
     }
 
     /// The spheres that the ray may meet before the segment's end, a bit for each.
@@ -168,6 +173,16 @@ impl Block {
         let s = h.max(Vec4::ZERO);
         (power - s * one_over_a * s).is_negative_bitmask()
     }
+}
+
+/// Whether anything can meet the sphere.
+pub(super) fn can_be_met(sphere: &Sphere) -> bool {
+    sphere.center.is_finite() && (0.0..f32::INFINITY).contains(&sphere.radius)
+}
+
+/// Whether the filter can compute with a sphere that can be met.
+pub(super) fn is_in_reach(sphere: &Sphere) -> bool {
+    sphere.center.abs().max_element() <= LARGEST && sphere.radius <= LARGEST
 }
 
 /// r², made larger by `margin` of itself and by [`LEAST`].

@@ -10,6 +10,7 @@ mod avx2;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod avx512;
 
+#[cfg(test)]
 use core::fmt;
 
 use glam::Vec4;
@@ -40,7 +41,7 @@ pub(crate) trait Vectorized {
 
 /// A set of instructions that this machine has.
 #[derive(Clone, Copy)]
-pub struct Lanes(Set);
+pub(crate) struct Lanes(Set);
 
 #[derive(Clone, Copy)]
 enum Set {
@@ -53,7 +54,8 @@ enum Set {
 
 impl Lanes {
     /// All that this machine has, the best last.
-    pub fn available() -> impl Iterator<Item = Self> {
+    #[cfg(test)]
+    pub(crate) fn available() -> impl Iterator<Item = Self> {
         [
             Some(Self(Set::Compiled(Compiled))),
             #[cfg(all(feature = "std", target_arch = "x86_64"))]
@@ -65,11 +67,13 @@ impl Lanes {
         .flatten()
     }
 
-    /// The best that this machine has.
+    /// The best that this machine has. To measure the others, `--cfg eyeray_lanes="avx2"` in RUSTFLAGS leaves out what is better
+    /// than AVX2, and `--cfg eyeray_lanes="compiled"` all that the crate is not compiled for.
     #[inline(always)]
     pub(crate) fn best() -> Self {
-        #[cfg(all(feature = "std", target_arch = "x86_64"))]
+        #[cfg(all(feature = "std", target_arch = "x86_64", not(eyeray_lanes = "compiled")))]
         {
+            #[cfg(not(eyeray_lanes = "avx2"))]
             if let Some(avx512) = Avx512::detect() {
                 return Self(Set::Avx512(avx512));
             }
@@ -93,6 +97,7 @@ impl Lanes {
     }
 }
 
+#[cfg(test)]
 impl fmt::Debug for Lanes {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(match self.0 {
