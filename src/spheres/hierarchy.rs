@@ -92,6 +92,12 @@ impl SphereBvh {
         }
     }
 
+    /// A tree, however few the spheres are.
+    #[cfg(test)]
+    pub(super) fn tree(spheres: &Spheres) -> Self {
+        Self(Shape::Tree(Tree::new(spheres)))
+    }
+
     /// The same with that set of instructions.
     #[cfg(test)]
     pub(super) fn nearest_in_lanes(

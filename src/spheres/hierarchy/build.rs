@@ -15,6 +15,9 @@ use crate::Sphere;
 /// Up to so many spheres, a scan is as fast.
 const FEW: usize = 64;
 
+/// Up to so many spheres, a place is a number of 32 bits, those of lanes without a sphere included.
+const MOST: usize = (u32::MAX - 64) as usize;
+
 /// How many spheres are kept apart at most, if they can be computed with.
 const APART: usize = 16;
 
@@ -26,19 +29,15 @@ struct Member {
 
 impl From<Spheres> for SphereBvh {
     fn from(spheres: Spheres) -> Self {
-        Self(match Tree::new(&spheres) {
-            Some(tree) => Shape::Tree(tree),
-            None => Shape::Scan(spheres),
-        })
+        let is_tree = (FEW + 1..=MOST).contains(&spheres.len());
+        Self(if is_tree { Shape::Tree(Tree::new(&spheres)) } else { Shape::Scan(spheres) })
     }
 }
 
 impl Tree {
-    fn new(spheres: &Spheres) -> Option<Self> {
+    /// Of [`MOST`] spheres at most.
+    pub(super) fn new(spheres: &Spheres) -> Self {
         let count = spheres.len();
-        if count <= FEW || count > (u32::MAX - 64) as usize {
-            return None;
-        }
         let mut members = Vec::with_capacity(count);
         let mut apart = Vec::new();
         let mut unreachable = Vec::new();
@@ -108,7 +107,7 @@ impl Tree {
         for (place, member) in (behind..).zip(apart.iter().chain(&unreachable)) {
             places[member.index as usize] = place;
         }
-        Some(Self {
+        Self {
             leaves,
             nodes,
             first,
@@ -118,7 +117,7 @@ impl Tree {
             apart_indices: apart.iter().map(|member| member.index).collect(),
             unreachable: unreachable.iter().map(|member| member.sphere).collect(),
             places,
-        })
+        }
     }
 }
 
