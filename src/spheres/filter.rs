@@ -239,11 +239,11 @@ mod tests {
         type Output = (u32, bool);
 
         #[inline(always)]
-        fn run<I: Instructions>(&self, instructions: I) -> (u32, bool) {
+        fn run<I: Instructions>(self, instructions: I) -> (u32, bool) {
             let Self { block, segment, end } = self;
             (
-                block.near_segment(instructions, segment, *end),
-                block.is_near_line(instructions, segment),
+                block.near_segment(instructions, &segment, end),
+                block.is_near_line(instructions, &segment),
             )
         }
     }
@@ -277,7 +277,7 @@ mod tests {
             for end in [f32::INFINITY, f32::from_bits(hit.t.to_bits() + 1)] {
                 hits += 1;
                 let segment = Segment::new(&ray, margin);
-                let (near, near_line) = lanes.run(&Tests { block: &block, segment, end });
+                let (near, near_line) = lanes.run(Tests { block: &block, segment, end });
                 let near_half_line = block.few_near_half_line(&segment);
                 assert_eq!((near | near_half_line) & !(1 << LANE), 0, "an empty lane passed");
                 dropped += u32::from(near == 0 || !near_line || near_half_line == 0);

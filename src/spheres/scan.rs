@@ -344,14 +344,14 @@ struct Filter<'a> {
     end: f32,
 }
 
-impl Vectorized for Filter<'_> {
+impl Vectorized for &Filter<'_> {
     /// How many blocks are skipped, and a bit for each sphere from there that passes: of the next block, or, where no more
     /// blocks are left than a word has bits for, of all.
     type Output = (usize, u64);
 
     #[inline(always)]
-    fn run<I: Instructions>(&self, instructions: I) -> (usize, u64) {
-        let Self { blocks, segment, end } = *self;
+    fn run<I: Instructions>(self, instructions: I) -> (usize, u64) {
+        let Filter { blocks, segment, end } = *self;
         if blocks.len() <= BLOCKS_IN_A_WORD {
             let mut near = 0;
             for (place, block) in blocks.iter().enumerate() {

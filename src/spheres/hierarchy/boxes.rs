@@ -1,6 +1,6 @@
 //! Which of 16 boxes a ray passes through, and where it enters them.
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 use crate::Ray;
 use crate::spheres::lanes::{Instructions, LANES};
@@ -59,7 +59,7 @@ impl Boxes {
         let smaller = |a: f32, b: f32| if a < b { a } else { b };
         let mut lengths = [0.0; LANES];
         for lane in 0..LANES {
-            let at = |planes: &[f32; LANES], axis: usize, offset: [f32; 3]| {
+            let at = |planes: &[f32; LANES], axis: usize, offset: Vec4| {
                 instructions.multiply_add(planes[lane], reciprocal[axis], offset[axis])
             };
             let enter = larger(
@@ -78,34 +78,38 @@ impl Boxes {
 }
 
 /// What the boxes are tested with: a ray.
+///
+/// As vectors of four: the filters' loops load the numbers one by one, which would have to wait if they were written in other
+/// groups than the compiler happens to load.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slabs {
     /// Of each component of the direction.
-    reciprocal: [f32; 3],
+    reciprocal: Vec4,
     /// What is added to a near plane times the reciprocal: where the ray meets it, or earlier.
-    near: [f32; 3],
+    near: Vec4,
     /// Likewise of a far plane: where the ray meets it, or later.
-    far: [f32; 3],
+    far: Vec4,
     is_negative: [bool; 3],
 }
 
 impl Slabs {
     #[inline(always)]
     pub(super) fn new(ray: &Ray, largest_coordinate: f32, margin: f32) -> Self {
-        let Ray { origin, direction } = *ray;
-        let least = direction.abs().max_element() * LEAST_COMPONENT;
-        let direction = direction.to_array().map(|d| if d.abs() > least { d } else { least.copysign(d) });
-        let origin = origin.to_array();
-        let reach = (origin.map(f32::abs).into_iter().fold(largest_coordinate, |a, b| if a > b { a } else { b })) * margin;
-        let reciprocal = direction.map(f32::recip);
-        let offset = |sign: f32| {
-            core::array::from_fn(|axis| sign * (reach * reciprocal[axis].abs()) - origin[axis] * reciprocal[axis])
-        };
+        let origin = ray.origin.extend(largest_coordinate);
+        // The last number, 1, is not used.
+        let direction = ray.direction.extend(0.0);
+        let magnitude = direction.abs();
+        let least = Vec4::splat(magnitude.max_element() * LEAST_COMPONENT);
+        let reciprocal = magnitude.max(least).recip();
+        let reach = reciprocal * (origin.abs().max_element() * margin);
+        let reciprocal = reciprocal.copysign(direction);
+        let offset = origin * reciprocal;
+        let mask = direction.is_negative_bitmask();
         Self {
             reciprocal,
-            near: offset(-1.0),
-            far: offset(1.0),
-            is_negative: direction.map(f32::is_sign_negative),
+            near: -offset - reach,
+            far: reach - offset,
+            is_negative: [mask & 1 != 0, mask & 2 != 0, mask & 4 != 0],
         }
     }
 }

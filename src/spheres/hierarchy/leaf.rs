@@ -1,6 +1,6 @@
 //! Which of 16 spheres a ray may meet.
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 use crate::spheres::lanes::{Instructions, LANES};
 use crate::{Ray, Sphere};
@@ -60,16 +60,16 @@ impl Leaf {
 
     /// The spheres that the ray may meet before `end`, a bit for each.
     #[inline(always)]
-    pub(super) fn near<I: Instructions>(&self, instructions: I, tube: &Tube, end: f32) -> u32 {
-        let Tube { origin, direction, one_over_a, radius_factor, widening } = *tube;
+    pub(super) fn near<I: Instructions>(&self, instructions: I, tube: &Tube, end: f32, ms: &mut [f32; LANES], clearances: &mut [f32; LANES]) -> u32 {
+        let Tube { origin, direction, over_a, radius_factor, widening } = *tube;
+        let mut closest = [0.0; LANES];
         let mut clearance = [0.0; LANES];
-        for (lane, clearance) in clearance.iter_mut().enumerate() {
+        for lane in 0..LANES {
             let x = self.x[lane] - origin.x;
             let y = self.y[lane] - origin.y;
             let z = self.z[lane] - origin.z;
-            let h = instructions.multiply_add(direction.y, y, direction.x * x);
-            let h = instructions.multiply_add(direction.z, z, h);
-            let m = h * one_over_a;
+            let m = instructions.multiply_add(over_a.y, y, over_a.x * x);
+            let m = instructions.multiply_add(over_a.z, z, m);
             let m = if m > 0.0 { m } else { 0.0 };
             let m = if m < end { m } else { end };
             let x = instructions.multiply_add(-m, direction.x, x);
@@ -77,11 +77,14 @@ impl Leaf {
             let z = instructions.multiply_add(-m, direction.z, z);
             let radius = instructions.multiply_add(self.radius[lane], radius_factor, LEAST);
             let radius = instructions.multiply_add(widening, m, radius);
-            let square = x * x;
-            let square = instructions.multiply_add(y, y, square);
-            let square = instructions.multiply_add(z, z, square);
-            *clearance = instructions.multiply_add(-radius, radius, square);
+            // In two halves, neither of which waits for the other.
+            let one = instructions.multiply_add(y, y, x * x);
+            let other = instructions.multiply_add(-radius, radius, z * z);
+            closest[lane] = m;
+            clearance[lane] = one + other;
         }
+        *ms = closest;
+        *clearances = clearance;
         instructions.signs(&clearance)
     }
 }
@@ -89,10 +92,10 @@ impl Leaf {
 /// What the leaves are tested with: a ray, and how far around it a sphere may be.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tube {
-    origin: Vec3,
-    direction: Vec3,
-    /// 1 / d·d.
-    one_over_a: f32,
+    origin: Vec4,
+    direction: Vec4,
+    /// d / d·d.
+    over_a: Vec4,
     radius_factor: f32,
     widening: f32,
 }
@@ -105,9 +108,9 @@ impl Tube {
         // An upper bound on the length.
         let length = direction.x.abs() + direction.y.abs() + direction.z.abs();
         Self {
-            origin,
-            direction,
-            one_over_a: a.recip(),
+            origin: origin.extend(0.0),
+            direction: direction.extend(0.0),
+            over_a: direction.extend(0.0) * a.recip(),
             radius_factor: 1.0 + radius_margin,
             widening: distance_margin * length,
         }

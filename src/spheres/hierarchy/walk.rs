@@ -31,35 +31,66 @@ fn entry(key: Key) -> f32 {
     f32::from_bits((key >> 32) as u32)
 }
 
+/// Where the ray enters the boxes of a node. Two references, so that both are passed in registers.
 struct Enter<'a> {
     node: &'a Boxes,
-    slabs: &'a Slabs,
-    end: f32,
+    query: &'a mut Query,
 }
 
 impl Vectorized for Enter<'_> {
-    type Output = (u32, [f32; LANES]);
+    type Output = u32;
 
     #[inline(always)]
-    fn run<I: Instructions>(&self, instructions: I) -> (u32, [f32; LANES]) {
-        let mut entries = [0.0; LANES];
-        let entered = self.node.entered(instructions, self.slabs, self.end, &mut entries);
-        (entered, entries)
+    fn run<I: Instructions>(self, instructions: I) -> u32 {
+        let Query { slabs, end, entries, .. } = self.query;
+        self.node.entered(instructions, slabs, *end, &mut entries.0)
     }
 }
 
 struct Near<'a> {
     leaf: &'a Leaf,
-    tube: &'a Tube,
-    end: f32,
+    query: &'a mut Query,
 }
 
 impl Vectorized for Near<'_> {
     type Output = u32;
 
     #[inline(always)]
-    fn run<I: Instructions>(&self, instructions: I) -> u32 {
-        self.leaf.near(instructions, self.tube, self.end)
+    fn run<I: Instructions>(self, instructions: I) -> u32 {
+        let Query { tube, end, entries, clearances, .. } = self.query;
+        self.leaf.near(instructions, tube, *end, &mut entries.0, &mut clearances.0)
+    }
+}
+
+#[repr(align(64))]
+struct Entries([f32; LANES]);
+
+/// A ray on its way.
+struct Query {
+    slabs: Slabs,
+    tube: Tube,
+    /// The end of the range, or of the nearest hit so far.
+    end: f32,
+    entries: Entries,
+    clearances: Entries,
+    one_over_length: f64,
+}
+
+impl Query {
+    #[inline(never)]
+    fn first_of(&self, mut near: u32) -> usize {
+        let mut first = near.trailing_zeros() as usize % LANES;
+        let mut least = f64::INFINITY;
+        while near != 0 {
+            let lane = near.trailing_zeros() as usize % LANES;
+            near &= near - 1;
+            let half_chord = crate::float::sqrt(f64::from(-self.clearances.0[lane])) * self.one_over_length;
+            let entry = f64::from(self.entries.0[lane]) - half_chord;
+            if entry < least {
+                (first, least) = (lane, entry);
+            }
+        }
+        first
     }
 }
 
@@ -75,14 +106,20 @@ impl Tree {
         &self,
         lanes: Lanes,
         ray: &Ray,
-        mut end: f32,
+        end: f32,
         mut ask: impl FnMut(u32, &Sphere, f32) -> Option<f32>,
     ) {
         if self.leaves.is_empty() {
             return;
         }
-        let slabs = Slabs::new(ray, self.largest_coordinate, boxes::MARGIN);
-        let tube = Tube::new(ray, leaf::RADIUS_MARGIN, leaf::DISTANCE_MARGIN);
+        let mut query = Query {
+            slabs: Slabs::new(ray, self.largest_coordinate, boxes::MARGIN),
+            tube: Tube::new(ray, leaf::RADIUS_MARGIN, leaf::DISTANCE_MARGIN),
+            end,
+            entries: Entries([0.0; LANES]),
+            clearances: Entries([0.0; LANES]),
+            one_over_length: 1.0 / f64::from(ray.direction.length()),
+        };
         let mut waiting = ArrayVec::<Key, MOST_WAITING>::new();
         let mut next = key(0.0, self.top << PLACE_BITS);
         loop {
@@ -92,25 +129,35 @@ impl Tree {
             let in_level = place & ((1 << PLACE_BITS) - 1);
             if level == 0 {
                 let Some(leaf) = self.leaves.get(in_level as usize) else { return };
-                let mut near = lanes.run(&Near { leaf, tube: &tube, end });
+                let mut near = lanes.run(Near { leaf, query: &mut query });
                 while near != 0 {
-                    let lane = near.trailing_zeros() as usize % LANES;
-                    near &= near - 1;
-                    if let Some(nearer) = ask(leaf.index(lane), &leaf.sphere(lane), end) {
-                        end = nearer;
+                    let lane = if near & (near - 1) == 0 {
+                        near.trailing_zeros() as usize % LANES
+                    } else {
+                        query.first_of(near)
+                    };
+                    near &= !(1 << lane);
+                    if let Some(nearer) = ask(leaf.index(lane), &leaf.sphere(lane), query.end) {
+                        if nearer < 0.0 {
+                            return;
+                        }
+                        query.end = nearer;
+                        if near != 0 {
+                            near &= lanes.run(Near { leaf, query: &mut query });
+                        }
                     }
                 }
             } else {
                 let node = self.first[level as usize % LEVELS] + in_level;
                 let Some(node) = self.nodes.get(node as usize) else { return };
-                let (mut entered, entries) = lanes.run(&Enter { node, slabs: &slabs, end });
+                let mut entered = lanes.run(Enter { node, query: &mut query });
                 if entered != 0 {
                     let child = (level - 1) << PLACE_BITS | in_level * 16;
                     let mut nearest = Key::MAX;
                     loop {
                         let lane = entered.trailing_zeros();
                         entered &= entered - 1;
-                        let other = key(entries[lane as usize % LANES], child + lane);
+                        let other = key(query.entries.0[lane as usize % LANES], child + lane);
                         let farther = nearest.max(other);
                         nearest = nearest.min(other);
                         if farther != Key::MAX {
@@ -126,7 +173,7 @@ impl Tree {
             }
             loop {
                 let Some(key) = waiting.pop() else { return };
-                if entry(key) <= end {
+                if entry(key) <= query.end {
                     next = key;
                     break;
                 }

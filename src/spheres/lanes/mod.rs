@@ -36,7 +36,7 @@ pub(crate) trait Vectorized {
     type Output;
 
     /// Runs it.
-    fn run<I: Instructions>(&self, instructions: I) -> Self::Output;
+    fn run<I: Instructions>(self, instructions: I) -> Self::Output;
 }
 
 /// A set of instructions that this machine has.
@@ -86,7 +86,7 @@ impl Lanes {
 
     /// Runs the loop with this set of instructions.
     #[inline(always)]
-    pub(crate) fn run<F: Vectorized>(self, f: &F) -> F::Output {
+    pub(crate) fn run<F: Vectorized>(self, f: F) -> F::Output {
         match self.0 {
             Set::Compiled(compiled) => compiled.run(f),
             #[cfg(all(feature = "std", target_arch = "x86_64"))]
@@ -118,7 +118,7 @@ impl Compiled {
     // Like those of the others, not inlined: a loop that shares its function with other code may get the vectors that it keeps
     // saved and restored.
     #[inline(never)]
-    fn run<F: Vectorized>(self, f: &F) -> F::Output {
+    fn run<F: Vectorized>(self, f: F) -> F::Output {
         f.run(self)
     }
 }
