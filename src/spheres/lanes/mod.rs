@@ -84,6 +84,17 @@ impl Lanes {
         Self(Set::Compiled(Compiled))
     }
 
+    /// How many numbers one of its vectors holds.
+    pub(crate) fn at_a_time(self) -> usize {
+        match self.0 {
+            Set::Compiled(_) => 4,
+            #[cfg(all(feature = "std", target_arch = "x86_64"))]
+            Set::Avx2(_) => 8,
+            #[cfg(all(feature = "std", target_arch = "x86_64"))]
+            Set::Avx512(_) => 16,
+        }
+    }
+
     /// Runs the loop with this set of instructions.
     #[inline(always)]
     pub(crate) fn run<F: Vectorized>(self, f: F) -> F::Output {
