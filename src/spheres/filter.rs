@@ -89,15 +89,14 @@ impl Block {
     /// Puts a sphere into a lane.
     pub(crate) fn set(&mut self, lane: usize, sphere: &Sphere, margin: f32) {
         let Sphere { center, radius } = *sphere;
-        let (center, negative_radius_squared) =
-            if !can_be_met(sphere) {
-                // Nothing meets it.
-                (Vec3::ZERO, f32::INFINITY)
-            } else if !is_in_reach(sphere) {
-                (Vec3::ZERO, f32::NEG_INFINITY)
-            } else {
-                (center, -enlarged_square(radius, margin))
-            };
+        let (center, negative_radius_squared) = if !can_be_met(sphere) {
+            // Nothing meets it.
+            (Vec3::ZERO, f32::INFINITY)
+        } else if !is_in_reach(sphere) {
+            (Vec3::ZERO, f32::NEG_INFINITY)
+        } else {
+            (center, -enlarged_square(radius, margin))
+        };
         self.x[lane] = center.x;
         self.y[lane] = center.y;
         self.z[lane] = center.z;

@@ -93,14 +93,10 @@ impl Boxes {
             let at = |planes: &[f32; LANES], axis: usize, offset: Vec4| {
                 instructions.multiply_add(planes[lane], reciprocal[axis], offset[axis])
             };
-            let enter = larger(
-                larger(at(x.0, 0, near), at(y.0, 1, near)),
-                larger(at(z.0, 2, near), 0.0),
-            );
-            let leave = smaller(
-                smaller(at(x.1, 0, far), at(y.1, 1, far)),
-                smaller(at(z.1, 2, far), end),
-            );
+            let enter =
+                larger(larger(at(x.0, 0, near), at(y.0, 1, near)), larger(at(z.0, 2, near), 0.0));
+            let leave =
+                smaller(smaller(at(x.1, 0, far), at(y.1, 1, far)), smaller(at(z.1, 2, far), end));
             entries[lane] = enter;
             lengths[lane] = leave - enter;
         }
@@ -190,7 +186,8 @@ mod tests {
             let mut touching = center;
             touching[axis] += if case % 2 == 0 { sphere.radius } else { -sphere.radius };
             let mut direction = vector(5).as_vec3();
-            direction[axis] = [0.0, -0.0, 1e-30, -1e-9, 1e-7, direction[axis]][case as usize / 6 % 6];
+            direction[axis] =
+                [0.0, -0.0, 1e-30, -1e-9, 1e-7, direction[axis]][case as usize / 6 % 6];
             if case % 5 == 0 {
                 direction[(axis + 1) % 3] = 0.0;
             }

@@ -84,7 +84,9 @@ impl Tree {
 
         let mut places = alloc::vec![0; spheres.len()];
         let behind = number(leaves.len() * LANES);
-        for (place, member) in (0..).zip(&members).chain((behind..).zip(apart.iter().chain(&unreachable))) {
+        for (place, member) in
+            (0..).zip(&members).chain((behind..).zip(apart.iter().chain(&unreachable)))
+        {
             places[member.index as usize] = place;
         }
         Self {

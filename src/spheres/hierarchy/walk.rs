@@ -172,8 +172,7 @@ impl Tree {
                     while entered != 0 {
                         let lane = entered.trailing_zeros();
                         entered &= entered - 1;
-                        let child =
-                            key(query.entries.0[lane as usize % LANES], first_child + lane);
+                        let child = key(query.entries.0[lane as usize % LANES], first_child + lane);
                         let farther = next.max(child);
                         next = next.min(child);
                         if farther != Key::MAX {
