@@ -98,10 +98,7 @@ pub use hittable::{Hittable, nearest};
 pub use ray::Ray;
 pub use sphere::Sphere;
 #[cfg(feature = "alloc")]
-#[doc(hidden)]
-pub use spheres::Lanes;
-#[cfg(feature = "alloc")]
-pub use spheres::Spheres;
+pub use spheres::{SphereBvh, Spheres};
 pub use vector::{Scalar, Vector};
 
 /// The examples of the README.

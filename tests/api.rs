@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use eyeray::{
     Algebraic, Camera, CameraArgument, CameraError, Frame, Geometric, Hit, Hittable, Ray, Rays,
-    Scalar, Sphere, Spheres, Vector, ViewRect, nearest,
+    Scalar, Sphere, SphereBvh, Spheres, Vector, ViewRect, nearest,
 };
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
@@ -132,8 +132,25 @@ fn many_spheres() {
     let _: Option<Sphere> = spheres.iter().next();
     let _: fn(&Spheres, &Ray, Range<f32>) -> Near<Vec3> = Spheres::nearest;
     hittable::<Vec3>(&spheres);
+    spheres.reserve(1);
+    let _: (Option<Sphere>, Option<Sphere>) =
+        (spheres.set(0, Sphere::default()), spheres.swap_remove(0));
+    let _: &[Sphere] = spheres.as_slice();
+    let _: Option<Sphere> = (&spheres).into_iter().next();
+    let _: bool = spheres == spheres.clone();
     spheres.clear();
     let _: (Spheres, Spheres) = (Spheres::new(), Spheres::with_capacity(1));
+    let _: Spheres = vec![Sphere::default()].into();
+}
+
+#[test]
+fn very_many_spheres() {
+    let bvh: SphereBvh = [Sphere::default()].into_iter().collect();
+    let _: (usize, bool, Option<Sphere>) = (bvh.len(), bvh.is_empty(), bvh.get(0));
+    let _: Option<Sphere> = bvh.iter().next();
+    let _: fn(&SphereBvh, &Ray, Range<f32>) -> Near<Vec3> = SphereBvh::nearest;
+    hittable::<Vec3>(&bvh);
+    let _: SphereBvh = Spheres::new().into();
 }
 
 #[test]

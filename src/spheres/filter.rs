@@ -58,7 +58,7 @@ pub(crate) const MARGIN: f32 = 8.0 * f32::EPSILON;
 const LEAST: f64 = f64::from_bits((1023 - 99) << 52); // 2^-99
 
 /// The largest coordinate, radius and length that the filter computes with.
-const LARGEST: f32 = f32::from_bits((127 + 60) << 23); // 2^60
+pub(super) const LARGEST: f32 = f32::from_bits((127 + 60) << 23); // 2^60
 
 /// The least square of a direction's length that it computes with.
 const LEAST_SQUARE: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
@@ -89,19 +89,23 @@ impl Block {
     /// Puts a sphere into a lane.
     pub(crate) fn set(&mut self, lane: usize, sphere: &Sphere, margin: f32) {
         let Sphere { center, radius } = *sphere;
-        let (center, negative_radius_squared) =
-            if !center.is_finite() || !radius.is_finite() || radius < 0.0 {
-                // Nothing meets it.
-                (Vec3::ZERO, f32::INFINITY)
-            } else if center.abs().max_element() > LARGEST || radius > LARGEST {
-                (Vec3::ZERO, f32::NEG_INFINITY)
-            } else {
-                (center, -enlarged_square(radius, margin))
-            };
+        let (center, negative_radius_squared) = if !can_be_met(sphere) {
+            // Nothing meets it.
+            (Vec3::ZERO, f32::INFINITY)
+        } else if !is_in_reach(sphere) {
+            (Vec3::ZERO, f32::NEG_INFINITY)
+        } else {
+            (center, -enlarged_square(radius, margin))
+        };
         self.x[lane] = center.x;
         self.y[lane] = center.y;
         self.z[lane] = center.z;
         self.negative_radius_squared[lane] = negative_radius_squared;
+    }
+
+    /// Takes the sphere out of a lane: it is dropped from now on.
+    pub(crate) fn clear(&mut self, lane: usize) {
+        self.negative_radius_squared[lane] = f32::INFINITY;
     }
 
     /// The spheres that the ray may meet before the segment's end, a bit for each.
@@ -170,6 +174,16 @@ impl Block {
     }
 }
 
+/// Whether anything can meet the sphere.
+pub(super) fn can_be_met(sphere: &Sphere) -> bool {
+    sphere.center.is_finite() && (0.0..f32::INFINITY).contains(&sphere.radius)
+}
+
+/// Whether the filter can compute with a sphere that can be met.
+pub(super) fn is_in_reach(sphere: &Sphere) -> bool {
+    sphere.center.abs().max_element() <= LARGEST && sphere.radius <= LARGEST
+}
+
 /// r², made larger by `margin` of itself and by [`LEAST`].
 #[expect(clippy::cast_possible_truncation, reason = "the margin has room for rounding")]
 fn enlarged_square(radius: f32, margin: f32) -> f32 {
@@ -224,11 +238,11 @@ mod tests {
         type Output = (u32, bool);
 
         #[inline(always)]
-        fn run<I: Instructions>(&self, instructions: I) -> (u32, bool) {
+        fn run<I: Instructions>(self, instructions: I) -> (u32, bool) {
             let Self { block, segment, end } = self;
             (
-                block.near_segment(instructions, segment, *end),
-                block.is_near_line(instructions, segment),
+                block.near_segment(instructions, &segment, end),
+                block.is_near_line(instructions, &segment),
             )
         }
     }
@@ -262,7 +276,7 @@ mod tests {
             for end in [f32::INFINITY, f32::from_bits(hit.t.to_bits() + 1)] {
                 hits += 1;
                 let segment = Segment::new(&ray, margin);
-                let (near, near_line) = lanes.run(&Tests { block: &block, segment, end });
+                let (near, near_line) = lanes.run(Tests { block: &block, segment, end });
                 let near_half_line = block.few_near_half_line(&segment);
                 assert_eq!((near | near_half_line) & !(1 << LANE), 0, "an empty lane passed");
                 dropped += u32::from(near == 0 || !near_line || near_half_line == 0);

@@ -19,7 +19,7 @@ impl Avx2 {
     }
 
     #[inline(always)]
-    pub(super) fn run<F: Vectorized>(self, f: &F) -> F::Output {
+    pub(super) fn run<F: Vectorized>(self, f: F) -> F::Output {
         #[expect(unsafe_code, reason = "the machine has what the function is compiled for")]
         // SAFETY: `detect`, which alone makes a `Self`, has seen both AVX2 and FMA.
         unsafe {
@@ -31,7 +31,7 @@ impl Avx2 {
 #[target_feature(enable = "avx2,fma")]
 #[inline(never)]
 #[expect(unsafe_code, reason = "before Rust 1.86, no function of other instructions is safe")]
-unsafe fn run<F: Vectorized>(avx2: Avx2, f: &F) -> F::Output {
+unsafe fn run<F: Vectorized>(avx2: Avx2, f: F) -> F::Output {
     f.run(avx2)
 }
 

@@ -20,7 +20,7 @@ mod implementation {
         }
 
         #[inline(always)]
-        pub(in crate::spheres) fn run<F: Vectorized>(self, f: &F) -> F::Output {
+        pub(in crate::spheres) fn run<F: Vectorized>(self, f: F) -> F::Output {
             #[expect(unsafe_code, reason = "the machine has what the function is compiled for")]
             // SAFETY: `detect`, which alone makes a `Self`, has seen AVX-512.
             unsafe {
@@ -32,7 +32,7 @@ mod implementation {
     #[target_feature(enable = "avx512f")]
     #[inline(never)]
     #[expect(unsafe_code, reason = "before Rust 1.86, no function of other instructions is safe")]
-    unsafe fn run<F: Vectorized>(avx512: Avx512, f: &F) -> F::Output {
+    unsafe fn run<F: Vectorized>(avx512: Avx512, f: F) -> F::Output {
         f.run(avx512)
     }
 
@@ -70,7 +70,7 @@ mod implementation {
         }
 
         #[inline(always)]
-        pub(in crate::spheres) fn run<F: Vectorized>(self, _: &F) -> F::Output {
+        pub(in crate::spheres) fn run<F: Vectorized>(self, _: F) -> F::Output {
             match self {}
         }
     }

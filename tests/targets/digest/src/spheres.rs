@@ -1,8 +1,8 @@
-//! `Spheres` with the lanes that this target has.
+//! `Spheres` and `SphereBvh` with the lanes that this target has.
 
 use core::array;
 
-use eyeray::{Spheres, nearest};
+use eyeray::{SphereBvh, Spheres, nearest};
 use glam::Vec3;
 
 use crate::CASES;
@@ -11,7 +11,7 @@ use crate::families::{Case, FAMILIES, Rng};
 /// The spheres that a ray is asked for at a time.
 const MOST: usize = 100;
 
-/// Compares `Spheres` with the slice, in numbers from 1 to [`MOST`] of each family.
+/// Compares `Spheres` and `SphereBvh` with the slice, in numbers from 1 to [`MOST`] of each family.
 ///
 /// # Panics
 /// If they differ.
@@ -23,8 +23,15 @@ pub fn assert_spheres_find_the_same() {
             let spheres = cases.map(|(_, sphere)| sphere);
             let spheres = &spheres[..=case % MOST];
             let lanes: Spheres = spheres.iter().copied().collect();
+            let hierarchy: SphereBvh = spheres.iter().copied().collect();
             for (ray, _) in &cases[..10] {
                 let found = lanes.nearest(ray, 0.0..f32::INFINITY);
+                assert_eq!(
+                    found,
+                    hierarchy.nearest(ray, 0.0..f32::INFINITY),
+                    "{}: {ray:?}",
+                    family.name
+                );
                 let expected = nearest(spheres, ray, 0.0..f32::INFINITY);
                 assert_eq!(found, expected, "{}: {ray:?}, {spheres:?}", family.name);
             }

@@ -1,18 +1,11 @@
-//! Many spheres: a filter over many lanes, and the exact routine for the few that pass.
-
-mod filter;
-mod lanes;
+//! Few or changing spheres, all of which a ray tests: a filter over many lanes, and the exact routine for the few that pass.
 
 use alloc::vec::Vec;
-use core::iter;
 use core::ops::Range;
+use core::{fmt, iter, slice};
 
-use filter::{Block, FEW, MARGIN, Segment};
-use lanes::{Instructions, LANES, Vectorized};
-
-#[doc(hidden)]
-pub use lanes::Lanes;
-
+use super::filter::{Block, FEW, MARGIN, Segment};
+use super::lanes::{Instructions, LANES, Lanes, Vectorized};
 use crate::hittable::{nearest, nearest_among};
 use crate::{Hit, Hittable, Ray, Sphere};
 
@@ -64,7 +57,7 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 /// let found = spheres.nearest(&across, 0.0..f32::INFINITY);
 /// assert_eq!(found.map(|(index, hit)| (index, hit.t)), Some((99, 7.0)));
 /// ```
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Default)]
 pub struct Spheres {
     spheres: Vec<Sphere>,
     /// The same spheres as the filter needs them.
@@ -72,13 +65,15 @@ pub struct Spheres {
 }
 
 impl Spheres {
-    /// None yet.
+    /// Creates an empty collection.
     #[inline]
+    #[must_use]
     pub const fn new() -> Self {
         Self { spheres: Vec::new(), blocks: Vec::new() }
     }
 
-    /// None yet, and room for `capacity`.
+    /// Creates an empty collection with room for `capacity` spheres.
+    #[must_use]
     pub fn with_capacity(capacity: usize) -> Self {
         Self {
             spheres: Vec::with_capacity(capacity),
@@ -86,49 +81,115 @@ impl Spheres {
         }
     }
 
-    /// Adds a sphere; its index is the number of those before it.
-    pub fn push(&mut self, sphere: Sphere) {
-        let lane = self.spheres.len() % LANES;
-        if lane == 0 {
-            self.blocks.push(Block::EMPTY);
-        }
-        if let Some(block) = self.blocks.last_mut() {
-            block.set(lane, &sphere, MARGIN);
-        }
-        self.spheres.push(sphere);
+    /// Makes room for `additional` more spheres.
+    pub fn reserve(&mut self, additional: usize) {
+        self.spheres.reserve(additional);
+        let blocks = self.len().saturating_add(additional).div_ceil(LANES);
+        self.blocks.reserve(blocks.saturating_sub(self.blocks.len()));
     }
 
-    /// Removes all, and keeps the room for as many.
+    /// Adds a sphere at the end. Its index is the number of spheres before it.
+    pub fn push(&mut self, sphere: Sphere) {
+        let index = self.len();
+        if index % LANES == 0 {
+            self.blocks.push(Block::EMPTY);
+        }
+        self.spheres.push(sphere);
+        self.update(index);
+    }
+
+    /// Replaces the sphere at `index`, and returns the one that was there. `None`, and nothing changes, if there is none.
+    ///
+    /// ```
+    /// use eyeray::{Sphere, Spheres};
+    /// use glam::Vec3;
+    ///
+    /// let mut spheres = Spheres::from(vec![Sphere::new(Vec3::ZERO, 1.0)]);
+    /// let moved = Sphere::new(Vec3::X, 1.0);
+    /// assert_eq!(spheres.set(0, moved), Some(Sphere::new(Vec3::ZERO, 1.0)));
+    /// assert_eq!(spheres.as_slice(), [moved]);
+    /// assert_eq!(spheres.set(1, moved), None);
+    /// ```
+    pub fn set(&mut self, index: usize, sphere: Sphere) -> Option<Sphere> {
+        let replaced = core::mem::replace(self.spheres.get_mut(index)?, sphere);
+        self.update(index);
+        Some(replaced)
+    }
+
+    /// Removes the sphere at `index` and returns it; the last sphere takes its place. `None` if there is none.
+    ///
+    /// ```
+    /// use eyeray::{Sphere, Spheres};
+    /// use glam::Vec3;
+    ///
+    /// let [a, b, c] = [1.0, 2.0, 3.0].map(|radius| Sphere::new(Vec3::ZERO, radius));
+    /// let mut spheres = Spheres::from(vec![a, b, c]);
+    /// assert_eq!(spheres.swap_remove(0), Some(a));
+    /// assert_eq!(spheres.as_slice(), [c, b]);
+    /// assert_eq!(spheres.swap_remove(2), None);
+    /// ```
+    pub fn swap_remove(&mut self, index: usize) -> Option<Sphere> {
+        if index >= self.len() {
+            return None;
+        }
+        let removed = self.spheres.swap_remove(index);
+        if index < self.len() {
+            self.update(index);
+        }
+        let last = self.len();
+        if let Some(block) = self.blocks.last_mut() {
+            block.clear(last % LANES);
+        }
+        self.blocks.truncate(last.div_ceil(LANES));
+        Some(removed)
+    }
+
+    /// Removes all spheres, and keeps the memory for as many.
     pub fn clear(&mut self) {
         self.spheres.clear();
         self.blocks.clear();
     }
 
-    /// How many there are.
+    /// Tells the filter of a sphere.
+    fn update(&mut self, index: usize) {
+        if let (Some(sphere), Some(block)) =
+            (self.spheres.get(index), self.blocks.get_mut(index / LANES))
+        {
+            block.set(index % LANES, sphere, MARGIN);
+        }
+    }
+
+    /// Returns the number of spheres.
     #[inline]
     pub fn len(&self) -> usize {
         self.spheres.len()
     }
 
-    /// Whether there are none.
+    /// Returns whether there are no spheres.
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.spheres.is_empty()
     }
 
-    /// The sphere of that index, as it was given.
+    /// Returns the sphere at `index`, as it was given.
     #[inline]
     pub fn get(&self, index: usize) -> Option<Sphere> {
         self.spheres.get(index).copied()
     }
 
-    /// The spheres by ascending index, as they were given.
+    /// Returns all spheres by ascending index, as they were given.
     #[inline]
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = Sphere> + DoubleEndedIterator + Clone + '_ {
-        self.spheres.iter().copied()
+    pub fn as_slice(&self) -> &[Sphere] {
+        &self.spheres
     }
 
-    /// Which sphere the ray meets first with `t` in `range`, and where: of equal `t`, the lowest index.
+    /// Returns an iterator over the spheres by ascending index, as they were given.
+    #[inline]
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = Sphere> + DoubleEndedIterator + Clone + '_ {
+        self.into_iter()
+    }
+
+    /// Returns which sphere the ray meets first with `t` in `range`, and where: of equal `t`, the lowest index.
     #[inline]
     pub fn nearest(&self, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
         if self.len() <= FEW {
@@ -137,9 +198,8 @@ impl Spheres {
         self.nearest_in_lanes(Lanes::best(), ray, range)
     }
 
-    /// The same with that set of instructions: for tests.
-    #[doc(hidden)]
-    pub fn nearest_in_lanes(
+    /// The same with that set of instructions.
+    pub(super) fn nearest_in_lanes(
         &self,
         lanes: Lanes,
         ray: &Ray,
@@ -156,9 +216,8 @@ impl Spheres {
         nearest_among(ray, range, |end| near.next(end))
     }
 
-    /// [`Hittable::occludes`] with that set of instructions: for tests.
-    #[doc(hidden)]
-    pub fn occludes_in_lanes(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> bool {
+    /// [`Hittable::occludes`] with that set of instructions.
+    pub(super) fn occludes_in_lanes(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> bool {
         if !Segment::allows(ray) {
             return self.spheres.occludes(ray, range);
         }
@@ -285,14 +344,14 @@ struct Filter<'a> {
     end: f32,
 }
 
-impl Vectorized for Filter<'_> {
+impl Vectorized for &Filter<'_> {
     /// How many blocks are skipped, and a bit for each sphere from there that passes: of the next block, or, where no more
     /// blocks are left than a word has bits for, of all.
     type Output = (usize, u64);
 
     #[inline(always)]
-    fn run<I: Instructions>(&self, instructions: I) -> (usize, u64) {
-        let Self { blocks, segment, end } = *self;
+    fn run<I: Instructions>(self, instructions: I) -> (usize, u64) {
+        let Filter { blocks, segment, end } = *self;
         if blocks.len() <= BLOCKS_IN_A_WORD {
             let mut near = 0;
             for (place, block) in blocks.iter().enumerate() {
@@ -329,11 +388,40 @@ impl Hittable for Spheres {
     }
 }
 
+/// Prints the spheres as a list.
+impl fmt::Debug for Spheres {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.spheres.fmt(formatter)
+    }
+}
+
+/// Compares the spheres one by one, as slices do.
+impl PartialEq for Spheres {
+    fn eq(&self, other: &Self) -> bool {
+        self.spheres == other.spheres
+    }
+}
+
+/// Takes the spheres without copying them.
+impl From<Vec<Sphere>> for Spheres {
+    fn from(spheres: Vec<Sphere>) -> Self {
+        let blocks = spheres
+            .chunks(LANES)
+            .map(|spheres| {
+                let mut block = Block::EMPTY;
+                for (lane, sphere) in spheres.iter().enumerate() {
+                    block.set(lane, sphere, MARGIN);
+                }
+                block
+            })
+            .collect();
+        Self { spheres, blocks }
+    }
+}
+
 impl FromIterator<Sphere> for Spheres {
     fn from_iter<I: IntoIterator<Item = Sphere>>(iter: I) -> Self {
-        let mut spheres = Self::new();
-        spheres.extend(iter);
-        spheres
+        iter.into_iter().collect::<Vec<_>>().into()
     }
 }
 
@@ -341,9 +429,19 @@ impl Extend<Sphere> for Spheres {
     fn extend<I: IntoIterator<Item = Sphere>>(&mut self, iter: I) {
         let iter = iter.into_iter();
         let (at_least, _) = iter.size_hint();
-        self.spheres.reserve(at_least);
+        self.reserve(at_least);
         for sphere in iter {
             self.push(sphere);
         }
+    }
+}
+
+impl<'a> IntoIterator for &'a Spheres {
+    type Item = Sphere;
+    type IntoIter = iter::Copied<slice::Iter<'a, Sphere>>;
+
+    #[inline]
+    fn into_iter(self) -> Self::IntoIter {
+        self.spheres.iter().copied()
     }
 }

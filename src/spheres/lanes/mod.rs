@@ -10,6 +10,7 @@ mod avx2;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod avx512;
 
+#[cfg(test)]
 use core::fmt;
 
 use glam::Vec4;
@@ -35,12 +36,12 @@ pub(crate) trait Vectorized {
     type Output;
 
     /// Runs it.
-    fn run<I: Instructions>(&self, instructions: I) -> Self::Output;
+    fn run<I: Instructions>(self, instructions: I) -> Self::Output;
 }
 
 /// A set of instructions that this machine has.
 #[derive(Clone, Copy)]
-pub struct Lanes(Set);
+pub(crate) struct Lanes(Set);
 
 #[derive(Clone, Copy)]
 enum Set {
@@ -53,7 +54,8 @@ enum Set {
 
 impl Lanes {
     /// All that this machine has, the best last.
-    pub fn available() -> impl Iterator<Item = Self> {
+    #[cfg(test)]
+    pub(crate) fn available() -> impl Iterator<Item = Self> {
         [
             Some(Self(Set::Compiled(Compiled))),
             #[cfg(all(feature = "std", target_arch = "x86_64"))]
@@ -65,11 +67,13 @@ impl Lanes {
         .flatten()
     }
 
-    /// The best that this machine has.
+    /// The best that this machine has. To measure the others, `--cfg eyeray_lanes="avx2"` in RUSTFLAGS leaves out what is better
+    /// than AVX2, and `--cfg eyeray_lanes="compiled"` all that the crate is not compiled for.
     #[inline(always)]
     pub(crate) fn best() -> Self {
-        #[cfg(all(feature = "std", target_arch = "x86_64"))]
+        #[cfg(all(feature = "std", target_arch = "x86_64", not(eyeray_lanes = "compiled")))]
         {
+            #[cfg(not(eyeray_lanes = "avx2"))]
             if let Some(avx512) = Avx512::detect() {
                 return Self(Set::Avx512(avx512));
             }
@@ -80,9 +84,20 @@ impl Lanes {
         Self(Set::Compiled(Compiled))
     }
 
+    /// How many numbers one of its vectors holds.
+    pub(crate) fn at_a_time(self) -> usize {
+        match self.0 {
+            Set::Compiled(_) => 4,
+            #[cfg(all(feature = "std", target_arch = "x86_64"))]
+            Set::Avx2(_) => 8,
+            #[cfg(all(feature = "std", target_arch = "x86_64"))]
+            Set::Avx512(_) => 16,
+        }
+    }
+
     /// Runs the loop with this set of instructions.
     #[inline(always)]
-    pub(crate) fn run<F: Vectorized>(self, f: &F) -> F::Output {
+    pub(crate) fn run<F: Vectorized>(self, f: F) -> F::Output {
         match self.0 {
             Set::Compiled(compiled) => compiled.run(f),
             #[cfg(all(feature = "std", target_arch = "x86_64"))]
@@ -93,6 +108,7 @@ impl Lanes {
     }
 }
 
+#[cfg(test)]
 impl fmt::Debug for Lanes {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(match self.0 {
@@ -113,7 +129,7 @@ impl Compiled {
     // Like those of the others, not inlined: a loop that shares its function with other code may get the vectors that it keeps
     // saved and restored.
     #[inline(never)]
-    fn run<F: Vectorized>(self, f: &F) -> F::Output {
+    fn run<F: Vectorized>(self, f: F) -> F::Output {
         f.run(self)
     }
 }

@@ -1,0 +1,179 @@
+//! One ray against many spheres: `SphereBvh` beside a scan, obvhs and Embree, in turns, one thread.
+//!
+//! ```text
+//! cargo bench --manifest-path benches/peers/Cargo.toml --bench many_spheres
+//! cargo bench --manifest-path benches/peers/Cargo.toml --bench many_spheres -- --seed 7 chain   # other numbers, one scene
+//! ```
+//!
+//! Half of the rays are eye rays, half bounce off what those meet. With `RUSTFLAGS='--cfg eyeray_lanes="avx2"'` eyeray does
+//! without AVX-512, and with `"compiled"` without AVX2 too. Embree chooses for itself: in Debian's build, up to AVX2.
+#![allow(missing_docs, reason = "a benchmark")]
+
+#[path = "many_spheres/scenes.rs"]
+mod scenes;
+#[allow(dead_code, reason = "the example's")]
+#[path = "../../examples/many_spheres/src/obvhs.rs"]
+mod by_obvhs;
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use by_obvhs::Hierarchy;
+use eyeray::{Hittable, Ray, Sphere, SphereBvh, Spheres};
+use scenes::{SCENES, Scene};
+
+const ALL: std::ops::Range<f32> = 0.0..f32::INFINITY;
+
+/// What the command line asks for.
+struct Arguments {
+    seed: u64,
+    rounds: usize,
+    rays: usize,
+    /// Only scenes whose name has this in it.
+    only: String,
+}
+
+fn arguments() -> Result<Arguments, lexopt::Error> {
+    use lexopt::prelude::*;
+    let mut arguments = Arguments { seed: 1, rounds: 9, rays: 40_000, only: String::new() };
+    let mut parser = lexopt::Parser::from_env();
+    while let Some(argument) = parser.next()? {
+        match argument {
+            Long("seed") => arguments.seed = parser.value()?.parse()?,
+            Long("rounds") => arguments.rounds = parser.value()?.parse()?,
+            Long("rays") => arguments.rays = parser.value()?.parse()?,
+            Long("test") => (arguments.rounds, arguments.rays) = (1, 200),
+            Long("bench") => {}
+            Value(name) => arguments.only = name.string()?,
+            _ => return Err(argument.unexpected()),
+        }
+    }
+    Ok(arguments)
+}
+
+/// Takes all rays once.
+type Pass<'a> = Box<dyn Fn(&[Ray]) + 'a>;
+
+fn pass<'a, T>(find: impl Fn(&Ray) -> T + 'a) -> Pass<'a> {
+    Box::new(move |rays| {
+        for ray in rays {
+            black_box(find(black_box(ray)));
+        }
+    })
+}
+
+fn milliseconds<T>(make: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let made = make();
+    (made, start.elapsed().as_secs_f64() * 1e3)
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+fn main() {
+    let arguments = match arguments() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            eprintln!("many_spheres: {error}");
+            std::process::exit(2);
+        }
+    };
+    println!("ns a ray, and of Embree's time; ms to build");
+    println!(
+        "{:<24}{:>9}{:>9}{:>9}{:>9}{:>8}{:>8} |{:>9}{:>9}{:>6} |{:>9}{:>9}{:>6}",
+        "scene", "scan", "obvhs", "Embree", "Bvh", "", "of scan", "Embree", "Bvh", "", "Embree", "Bvh", "",
+    );
+    println!("{:>91}{:>27}", "occluded", "build");
+    for scene in SCENES.iter().filter(|scene| scene.name.contains(&arguments.only)) {
+        row(scene, &arguments);
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "counts are small")]
+fn row(scene: &Scene, arguments: &Arguments) {
+    let spheres = (scene.spheres)(arguments.seed);
+    let collected: Spheres = spheres.iter().copied().collect();
+    let (hierarchy, mut build) = milliseconds(|| spheres.iter().copied().collect::<SphereBvh>());
+    let (obvhs, _) = milliseconds(|| Hierarchy::new(&spheres));
+    let numbers: Vec<[f32; 4]> = spheres
+        .iter()
+        .map(|&Sphere { center, radius }| [center.x, center.y, center.z, radius])
+        .collect();
+    let by_embree = || embree::Device::new().map(|device| milliseconds(|| device.build(&numbers)));
+    let (embree, mut embree_build) = match by_embree() {
+        Some((Some(scene), time)) => (Some(scene), time),
+        _ => (None, f64::NAN),
+    };
+    // Of short times, the least of several.
+    for _ in 0..if spheres.len() > 200_000 { 1 } else { 5 } {
+        build = build.min(milliseconds(|| spheres.iter().copied().collect::<SphereBvh>()).1);
+        if let Some((_, time)) = by_embree() {
+            embree_build = embree_build.min(time);
+        }
+    }
+
+    let rays = scenes::rays(&spheres, &hierarchy, arguments.rays, arguments.seed);
+    check(&spheres, &hierarchy, &obvhs, embree.as_ref(), &rays);
+
+    let scanned = &rays[..(200_000_000 / spheres.len() / 16).clamp(20, rays.len())];
+    let passes: [(Pass, &[Ray]); 6] = [
+        (pass(|ray| collected.nearest(ray, ALL)), scanned),
+        (pass(|ray| obvhs.nearest(ray)), &rays),
+        (
+            pass(|ray| {
+                let embree = embree.as_ref()?;
+                embree.nearest(ray.origin.to_array(), ray.direction.to_array())
+            }),
+            &rays,
+        ),
+        (pass(|ray| hierarchy.nearest(ray, ALL)), &rays),
+        (
+            pass(|ray| {
+                embree.as_ref().is_some_and(|embree| {
+                    embree.occludes(ray.origin.to_array(), ray.direction.to_array(), f32::INFINITY)
+                })
+            }),
+            &rays,
+        ),
+        (pass(|ray| hierarchy.occludes(ray, ALL)), &rays),
+    ];
+    let mut times = vec![Vec::new(); passes.len()];
+    for _ in 0..arguments.rounds {
+        for ((pass, rays), times) in passes.iter().zip(&mut times) {
+            let start = Instant::now();
+            pass(rays);
+            times.push(start.elapsed().as_secs_f64() * 1e9 / rays.len() as f64);
+        }
+    }
+    let ratio = |a: usize, b: usize| median(times[a].iter().zip(&times[b]).map(|(a, b)| a / b).collect());
+    let (of_scan, of_embree, occluded) = (ratio(3, 0), ratio(3, 2), ratio(5, 4));
+    let medians: Vec<f64> = times.iter().cloned().map(median).collect();
+    println!(
+        "{:<24}{:>9.1}{:>9.1}{:>9.1}{:>9.1}{of_embree:>8.2}{of_scan:>8.2} |{:>9.1}{:>9.1}{occluded:>6.2} |{embree_build:>9.2}{build:>9.2}{:>6.2}",
+        scene.name, medians[0], medians[1], medians[2], medians[3], medians[4], medians[5], build / embree_build,
+    );
+}
+
+/// Everyone must find the same, Embree as far as single precision goes.
+fn check(spheres: &[Sphere], hierarchy: &SphereBvh, obvhs: &Hierarchy, embree: Option<&embree::Scene>, rays: &[Ray]) {
+    let mut differ = 0;
+    for ray in rays.iter().step_by(1 + spheres.len() / 500) {
+        let expected = eyeray::nearest(spheres, ray, ALL);
+        assert_eq!(hierarchy.nearest(ray, ALL), expected, "{ray:?}");
+        assert_eq!(hierarchy.occludes(ray, ALL), expected.is_some(), "{ray:?}");
+    }
+    for ray in rays {
+        let expected = hierarchy.nearest(ray, ALL);
+        let _ = obvhs;
+        if let Some(embree) = embree {
+            let found = embree.nearest(ray.origin.to_array(), ray.direction.to_array());
+            differ += usize::from(found.map(|(index, _)| index as usize) != expected.map(|(index, _)| index));
+        }
+    }
+    if differ * 50 > rays.len() {
+        println!("Embree finds another sphere for {differ} of {} rays", rays.len());
+    }
+}
