@@ -30,13 +30,14 @@
 //! - [`Sphere`] is met by either of two derivations, [`Algebraic`] and [`Geometric`], which agree bit for bit in `f32`.
 //! - [`Hittable`] is what a ray can meet; a [`Hit`] has the distance, the point and the normal, and
 //!   [spawns](Hit::spawn) rays that leave the surface for good.
-//! - [`nearest`] says which of many objects is met first, and `Spheres` does so for many spheres at a time, sooner.
+//! - [`nearest`] says which of many objects is met first. `Spheres` does so for few or changing spheres sooner, and `SphereBvh`
+//!   for up to millions.
 //!
 //! All of it is for glam's vectors, [`Vec3`](glam::Vec3) by default and [`DVec3`](glam::DVec3) for twice the precision: see
 //! [`Vector`]. `From` takes rays, spheres and hits to `f64` exactly, and `to_f32` rounds the plain data back.
 //!
 //! The formulas are those of S. Marschner's CS4620 lecture 6, *Ray Tracing Basics*, generalized to any center, radius and
-//! length of direction. There are no materials, no triangles, no colors and no acceleration structures here.
+//! length of direction. There are no materials, no triangles, no colors and no acceleration structures but that of spheres here.
 //!
 //! # Features
 //!
@@ -44,7 +45,7 @@
 //! - `libm`: for `no_std`, square roots from the [libm](https://docs.rs/libm) crate. One of `std` and `libm` is needed.
 //!   [`Sphere`]'s `intersect` takes 41 kB of a Cortex-M4F's code in `f32`, 48 kB in `f64` and 69 kB in both, optimized for size
 //!   and with the `f64` arithmetic that its hardware lacks (`tests/targets/run`).
-//! - `alloc`: `Spheres`, and [`Hittable`] for boxes. Implied by `std`.
+//! - `alloc`: `Spheres` and `SphereBvh`, and [`Hittable`] for boxes. Implied by `std`.
 //! - `serde`: `Serialize` and `Deserialize` for all data types. A [`Camera`] is checked again when it is deserialized.
 //! - `bytemuck`: `Pod` and `Zeroable` for [`Ray`] and [`Sphere`], to hand them to a GPU as bytes.
 //! - `approx-05`: `AbsDiffEq`, `RelativeEq` and `UlpsEq` of approx 0.5, named as glam names its own.
