@@ -81,10 +81,8 @@ fn run(arguments: &Arguments) -> Result<String, String> {
 }
 
 fn print_row(count: &str, cells: [String; 6]) {
-    let mut row = format!("{count:>9}");
-    for cell in cells {
-        row += &format!("{cell:>16}");
-    }
+    let cells = cells.map(|cell| format!("{cell:>16}"));
+    let row = format!("{count:>9}{}", cells.concat());
     tell(stdout(), &row, ExitCode::SUCCESS);
 }
 
