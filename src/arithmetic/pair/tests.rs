@@ -137,7 +137,8 @@ fn quotients_of_pairs_keep_their_bound() {
 fn square_roots_of_pairs_keep_their_bound() {
     let start = |random: &mut Random| random_parts(random);
     let worst = search("square root", 150, 200, start, |parts| {
-        let pair = pair_from(parts).abs();
+        let [hi, lo] = parts;
+        let pair = pair_from([hi.abs(), lo]);
         let computed = pair.sqrt();
         let exact = exactly(pair).square_root(240);
         let bound = &Dyadic::exactly(ROOT_ERROR) * &exact;
@@ -151,6 +152,4 @@ fn opposites_cancel() {
     let pair = two_sum(-3.0, 1e-17);
     assert_eq!(pair + -pair, Pair { hi: 0.0, lo: 0.0 });
     assert_eq!(pair - pair, Pair { hi: 0.0, lo: 0.0 });
-    assert_eq!(pair.abs(), -pair);
-    assert_eq!((-pair).abs(), -pair);
 }
