@@ -4,7 +4,9 @@ use super::format::PointTolerance;
 use super::*;
 use crate::arithmetic::pair::U;
 use crate::arithmetic::scaling::scale;
-use crate::testing::{Dyadic, ExactChord, Lie, Neighbors, Random, nearest, setting, total};
+use crate::testing::{
+    Dyadic, ExactChord, Lie, Neighbors, Random, nearest, part_of_bound, setting, total,
+};
 
 /// The line and the sphere of the coordinates of center, origin and direction, and the radius.
 pub(super) fn line(numbers: [f64; 10]) -> Line {
@@ -63,8 +65,8 @@ impl ExactLine {
     }
 }
 
-/// What part of the tolerance the error of the point takes, and of the normal, at that exact root: besides the rounding of each
-/// coordinate.
+/// What part of what is allowed the error of the point takes, and of the normal, at that exact root: in each coordinate, the
+/// tolerance and the rounding.
 pub(super) fn parts_of_tolerance(
     numbers: [f64; 10],
     root: &Dyadic,
@@ -77,23 +79,22 @@ pub(super) fn parts_of_tolerance(
     let travelled = &root.clone().abs() * &length(&exact.d);
     let of_radius = &Dyadic::exactly(tolerance.of_radius) * &radius;
     let of_distance = &Dyadic::exactly(tolerance.of_distance) * &travelled;
-    let beyond = |found: f64, exact: Dyadic, ulps: f64| {
-        let rounding = &Dyadic::exactly(found.abs()) * &Dyadic::exactly(ulps * U);
-        let error = &(&Dyadic::exactly(found) - &exact).abs() - &rounding;
-        error.max(Dyadic::ZERO)
+    let allowed = of_radius.min(of_distance);
+    let part = |found: f64, exact: &Dyadic, allowed: &Dyadic, ulps: f64| {
+        let half_ulp = (f64::from_bits(found.abs().to_bits() + 1) - found.abs()) / 2.0;
+        let allowed = allowed + &Dyadic::exactly(half_ulp * ulps);
+        part_of_bound(&Dyadic::exactly(found), exact, &allowed)
     };
     let point = [0, 1, 2].map(|axis: usize| {
         let exact = &exact.p[axis] + &(root * &exact.d[axis]);
-        beyond(found.point[axis], exact, 1.0)
+        part(found.point[axis], &exact, &allowed, 1.0)
     });
     // Rounded themselves, and by the division by the radius.
-    let normal = [0, 1, 2]
-        .map(|axis: usize| beyond(found.normal[axis], offset[axis].divided_by(&radius, 200), 2.0));
-    let part = |error: [Dyadic; 3], allowed: &Dyadic| {
-        length(&error).divided_by(allowed, 64).approximately()
-    };
-    let normal = part(normal, &Dyadic::exactly(tolerance.of_radius));
-    [part(point, &of_radius.min(of_distance)), normal]
+    let normal = [0, 1, 2].map(|axis: usize| {
+        let exact = offset[axis].divided_by(&radius, 200);
+        part(found.normal[axis], &exact, &Dyadic::exactly(tolerance.of_radius), 2.0)
+    });
+    [point, normal].map(|parts| parts.into_iter().fold(0.0, f64::max))
 }
 
 /// Both roots by the careful steps, `None` for a miss.

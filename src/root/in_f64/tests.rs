@@ -57,7 +57,7 @@ fn squares_are_safe_from_2_to_the_minus_480_up_to_2_to_the_480() {
     }
     let below = least * (1.0 - f64::EPSILON / 2.0);
     for square in [below, most, 0.0, -0.0, -1.0, f64::INFINITY, -f64::INFINITY, f64::NAN] {
-        assert!(!is_safe(square) && !is_safe(-square), "{square:e}");
+        assert!(!is_safe(square), "{square:e}");
     }
 }
 
@@ -116,5 +116,5 @@ fn points_keep_their_tolerance() {
         let [point, normal] = parts_of_tolerance(numbers, root, &found, tolerance);
         Some(point.max(normal))
     };
-    search("point of the careful steps in f64", 80, 150, start, part);
+    assert!(search("point of the careful steps in f64", 80, 150, start, part) > 0.5);
 }

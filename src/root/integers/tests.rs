@@ -15,7 +15,7 @@ fn ways(line: &Line) -> Vec<Exact> {
 
 /// Lines of every kind: integers, floats of a few exponents, of many, and exact tangents.
 fn random_numbers(random: &mut Random) -> [f64; 10] {
-    let mut numbers = match random.below(6) {
+    let mut numbers = match random.below(8) {
         0 => [0.0; 10].map(|_: f64| f64::from(random.integer(-20..=20))),
         1 => {
             let lie = Lie { power: 2_f64.powi(-random.integer(1..=50)), discriminant: 0.25 };
@@ -28,6 +28,13 @@ fn random_numbers(random: &mut Random) -> [f64; 10] {
         3 => [0.0; 10].map(|_: f64| random.float(-300..=300)),
         // All of 53 bits at both ends of 61 places.
         4 => [0.0; 10].map(|_: f64| random.float(-8..=0)),
+        // Half the chord is 4 where the line is 3 off a center of radius 5, or 0: roots of a few bits, and of 54.
+        5 | 6 => {
+            let size = f64::from(random.integer(1..=1000));
+            let aside = [3.0, 5.0][random.below(2)] * size;
+            let shift = 2_f64.powi(random.integer(0..=49));
+            [shift, aside, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 5.0 * size]
+        }
         _ => {
             // A tangent with the direction (3, 4, 0) and the normal (-4, 3, 0).
             let long = f64::from(random.integer(1..=1000));

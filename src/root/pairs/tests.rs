@@ -177,10 +177,10 @@ fn points_in_pairs_keep_their_tolerance() {
     });
     lies[0] = Lie { power: 1e-12, discriminant: 0.5 };
     let part = |exact: &ExactChord, numbers| points(exact, numbers, Format::F64);
-    search_settings("point from pairs", &lies, part);
-    search_settings("point from pairs, almost in doubt", &ALMOST_IN_DOUBT, part);
+    assert!(search_settings("point from pairs", &lies, part) > 0.1);
+    assert!(search_settings("point from pairs, almost in doubt", &ALMOST_IN_DOUBT, part) > 0.1);
     let part = |exact: &ExactChord, numbers| points(exact, numbers, Format::F32);
-    search_settings("point from pairs in f32", &lies, part);
+    assert!(search_settings("point from pairs in f32", &lies, part) > 0.1);
 }
 
 #[test]
@@ -263,13 +263,11 @@ fn lines_of_any_size_are_brought_near_1() {
             // In the units of the caller, if that is exact.
             match there.scaled.unscaled_root(found) {
                 Some(root) => assert_eq!(exactly(root), expected, "2^{lengths} 2^{directions}"),
-                None => assert!(expected.magnitude().abs() > 890, "{expected:?}"),
+                None => assert!(e != 0 && expected.magnitude().abs() > 890, "{expected:?}"),
             }
-            let is_middle = expected.magnitude().abs() < 890;
-            assert_eq!(
-                there.scaled.unscaled_root(found).is_some(),
-                is_middle || e == 0 || expected.magnitude() > 0 && expected.magnitude() < 1024
-            );
+            if e != 0 && !(-900..=1024).contains(&expected.magnitude()) {
+                assert_eq!(there.scaled.unscaled_root(found), None, "{expected:?}");
+            }
         }
     }
 }
