@@ -181,10 +181,10 @@ fn points(exact: &ExactChord, numbers: [f64; 10], format: Format) -> Option<f64>
     let parts = [(Side::Near, 0), (Side::Far, 1)].map(|(side, index): (Side, usize)| {
         let (t, relative_error) = found.estimate(side)?;
         let estimate = match format {
-            Format::F32 => Estimate { t: t.into(), relative_error },
+            Format::F32 => Estimate { t: t.into(), relative_error, exponent: 0 },
             Format::F64 => {
                 let (corrected, relative_error) = found.corrected(t, relative_error);
-                Estimate { t: corrected.t, relative_error }
+                Estimate { t: corrected.t, relative_error, exponent: 0 }
             }
         };
         let hit = found.hit(side, Root { t, estimate })?;

@@ -82,7 +82,8 @@ fn answers_are_the_exact_ones_rounded() {
             let next = f64::from_bits(t.to_bits() + 1);
             ranges.extend([*t..f64::INFINITY, next..f64::INFINITY, 0.0..*t, 0.0..next]);
         }
-        ranges.push(-1e9..f64::INFINITY);
+        // Nothing behind the origin is ahead, and there is no number in a range from or to NaN.
+        ranges.extend([-1e9..f64::INFINITY, 0.0..f64::NAN, f64::NAN..f64::INFINITY, 1.0..0.0]);
         for range in ranges {
             let expected = ahead.iter().copied().find(|t| range.contains(t));
             let found = [

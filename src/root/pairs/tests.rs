@@ -139,7 +139,7 @@ fn roots(exact: &ExactChord, numbers: [f64; 10]) -> Option<f64> {
     in_pairs(exact, numbers, Format::F64, |chord| {
         let expected = exact.roots().expect("this hits");
         let parts = [(Side::Near, 0), (Side::Far, 1)].map(|(side, index): (Side, usize)| {
-            let Estimate { t, relative_error } = chord.estimate(side)?;
+            let Estimate { t, relative_error, .. } = chord.estimate(side)?;
             let bound = of(relative_error, &expected[index].clone().abs());
             Some(part_of_bound(&exactly(t), &expected[index], &bound))
         });

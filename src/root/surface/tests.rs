@@ -96,7 +96,7 @@ fn small(exact: &ExactChord, numbers: [f64; 10]) -> Option<(Estimate, Dyadic)> {
 #[test]
 fn small_roots_keep_their_bound() {
     let part = |exact: &ExactChord, numbers| {
-        let (Estimate { t, relative_error }, expected) = small(exact, numbers)?;
+        let (Estimate { t, relative_error, .. }, expected) = small(exact, numbers)?;
         let bound = &Dyadic::exactly(relative_error) * &expected.clone().abs();
         Some(part_of_bound(&exactly(t), &expected, &bound))
     };
@@ -136,7 +136,7 @@ fn what_is_close_has_a_chord_and_a_small_root() {
 #[test]
 fn points_keep_their_tolerance() {
     let part = |exact: &ExactChord, numbers| {
-        let (Estimate { t, relative_error }, expected) = small(exact, numbers)?;
+        let (Estimate { t, relative_error, .. }, expected) = small(exact, numbers)?;
         // As certain as rounding needs, too.
         if relative_error > f64::EPSILON / 1000.0 {
             return None;
