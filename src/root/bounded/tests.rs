@@ -16,7 +16,7 @@ const ALMOST_IN_DOUBT: [Lie; 6] = [
 const CORRECTED: [Lie; 7] = [
     Lie { power: 0.5, discriminant: 1e-8 },
     Lie { power: 0.9999, discriminant: 1e-7 },
-    Lie { power: 0.9999999, discriminant: 4e-8 },
+    Lie { power: 0.999_999_9, discriminant: 4e-8 },
     Lie { power: 1e-5, discriminant: 1e-5 },
     Lie { power: 1e-8, discriminant: 0.5 },
     Lie { power: -1e-8, discriminant: 0.5 },
@@ -152,7 +152,7 @@ fn roots(exact: &ExactChord, numbers: [f64; 10], format: Format) -> Option<f64> 
         };
         let t: Pair = t;
         // Beyond that, rounding makes nothing of it.
-        if !(relative_error < 0.25) {
+        if relative_error >= 0.25 {
             return None;
         }
         let bound = of(relative_error, &expected[index].clone().abs());

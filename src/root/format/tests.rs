@@ -76,6 +76,16 @@ fn check(format: Format, t: Pair, relative_error: f64, exact: &Dyadic) -> Option
 }
 
 #[test]
+fn points_are_within_a_part_of_the_distance_and_of_the_radius() {
+    let tolerances = [Format::F32, Format::F64].map(|format| {
+        let PointTolerance { of_distance, of_radius } = format.point_tolerance();
+        [of_distance, of_radius]
+    });
+    let power = |e| 2_f64.powi(e);
+    assert_eq!(tolerances, [[power(-30), power(-24)], [power(-60), power(-53)]]);
+}
+
+#[test]
 fn rounding_within_an_error_is_that_of_the_exact_value() {
     for format in [Format::F32, Format::F64] {
         let mut random = Random::new(1);

@@ -7,6 +7,7 @@ use crate::root::tests::{line, parts_of_tolerance, single};
 use crate::root::{bounded, in_f64, pairs};
 use crate::testing::{Dyadic, ExactChord, Lie, Random, nearest, search, setting};
 
+#[expect(clippy::duplicate_mod, reason = "other unit tests take it, too")]
 #[path = "../../../tests/support/families.rs"]
 mod families;
 
@@ -143,6 +144,7 @@ fn the_margin_is_that_of_the_plain_step() {
 }
 
 #[test]
+#[expect(clippy::cast_possible_truncation, reason = "t is rounded already")]
 fn answers_are_the_exact_ones_rounded() {
     let mut random = Random::new(1);
     for _ in 0..3000 {

@@ -25,11 +25,11 @@ fn chord(line: &Line) -> (Chord<f64>, f64, f64) {
     (chord, sqrt(chord.discriminant), chord.distance_squared.max(radius_squared))
 }
 
-fn part_of_power(exact: &ExactChord, numbers: [f64; 10]) -> Option<f64> {
+fn part_of_power(exact: &ExactChord, numbers: [f64; 10]) -> f64 {
     let line = line(numbers);
     let (computed, error) = power(line.o(), line.radius);
     assert_eq!(computed.hi + computed.lo, computed.hi, "normalized: {numbers:?}");
-    Some(part_of_bound(&exactly(computed), &exact.power, &Dyadic::exactly(error)))
+    part_of_bound(&exactly(computed), &exact.power, &Dyadic::exactly(error))
 }
 
 #[test]
@@ -37,14 +37,16 @@ fn powers_in_pairs_keep_their_bound() {
     // Where the power is more than 2^-30 of the square.
     let lies = [0.9, 0.1, 1e-6, 1e-9, -0.9, -0.1, -1e-6, -1e-9]
         .map(|power| Lie { power, discriminant: 0.05 });
-    assert!(search_settings("power in pairs", &lies, part_of_power) > 0.06);
+    let part = |exact: &ExactChord, numbers| Some(part_of_power(exact, numbers));
+    assert!(search_settings("power in pairs", &lies, part) > 0.1);
 }
 
 #[test]
 fn powers_in_three_floats_keep_their_bound() {
     let lies = [1e-10, 1e-14, 1e-16, 0.0, -1e-10, -1e-14, -1e-16]
         .map(|power| Lie { power, discriminant: 0.5 });
-    assert!(search_settings("power in three floats", &lies, part_of_power) > 0.02);
+    let part = |exact: &ExactChord, numbers| Some(part_of_power(exact, numbers));
+    assert!(search_settings("power in three floats", &lies, part) > 0.1);
 }
 
 #[test]
@@ -56,7 +58,7 @@ fn powers_that_vanish_vanish() {
         [0.1, 0.2, 0.3, 0.1, 0.2, 0.3 - 1e-5, 1.0, 0.0, 0.0, 0.3 - (0.3 - 1e-5)],
     ] {
         let exact = ExactChord::new(numbers);
-        assert!(part_of_power(&exact, numbers).unwrap() <= 1.0, "{numbers:?}");
+        assert!(part_of_power(&exact, numbers) <= 1.0, "{numbers:?}");
     }
     let exact = power(line([3.0, 4.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 5.0]).o(), 5.0);
     assert_eq!(exact.0, Pair { hi: 0.0, lo: 0.0 });
