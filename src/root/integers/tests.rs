@@ -153,7 +153,7 @@ fn roots_are_compared_exactly_with_midpoints_at_and_beside_them() {
 fn narrow_numbers_answer_wherever_they_have_room() {
     // Where they have none, they say so, and where they answer, it is what sums say.
     let mut random = Random::new(3);
-    let (mut answers, mut none) = (0, 0);
+    let (mut answers, mut aheads, mut none) = (0, 0, 0);
     for _ in 0..3000 {
         let numbers = random_numbers(&mut random);
         let line = line(numbers);
@@ -174,9 +174,11 @@ fn narrow_numbers_answer_wherever_they_have_room() {
         }
         if let Some(ahead) = narrow.ahead_of(midpoint) {
             assert_eq!(ahead, sums.ahead_of(midpoint), "{midpoint:?} {numbers:?}");
+            aheads += 1;
         }
     }
     assert!(answers > 300 && none > 300, "{answers} answers, {none} times none");
+    assert_eq!(aheads, answers);
 }
 
 #[test]

@@ -1,4 +1,5 @@
 use super::*;
+use crate::arithmetic::pair::U;
 use crate::arithmetic::scaling::scale;
 use crate::root::tests::{ExactLine, difference, length, line, parts_of_tolerance, single};
 use crate::testing::{Dyadic, ExactChord, Lie, Random, exactly, part_of_bound, search, setting};
@@ -300,8 +301,10 @@ fn points_in_units_of_f32_too() {
 #[test]
 fn dust_is_swept_to_a_zero_of_its_sign() {
     let dust = 2_f64.powi(-801);
-    assert_eq!(without_dust(dust).to_bits(), 0.0_f64.to_bits());
-    assert_eq!(without_dust(-dust).to_bits(), (-0.0_f64).to_bits());
-    assert_eq!(without_dust(2.0 * dust), 2.0 * dust);
-    assert_eq!(without_dust(-2.0 * dust), -2.0 * dust);
+    for hi in [dust, -dust] {
+        let swept = without_dust(Pair { hi, lo: hi * U });
+        assert_eq!([swept.hi, swept.lo].map(f64::to_bits), [hi * 0.0, 0.0].map(f64::to_bits));
+        let kept = Pair { hi: 2.0 * hi, lo: hi * U };
+        assert_eq!(without_dust(kept), kept);
+    }
 }
