@@ -5,6 +5,9 @@ use core::ops::{Add, Div, Neg};
 use super::pair::{Pair, two_sum};
 use super::scaling::scale;
 
+#[cfg(test)]
+mod tests;
+
 /// The first 106 of the 128 bits of an integer with its highest bit set, as a number in 1..2.
 fn leading_pair(integer: u128) -> Pair {
     const HALF: u128 = (1 << 53) - 1;

@@ -10,6 +10,9 @@ use crate::arithmetic::pair::{Pair, U};
 use crate::arithmetic::rounding::RoundDown;
 use crate::arithmetic::scaling::integer_and_exponent;
 
+#[cfg(test)]
+mod tests;
+
 /// A format of floating-point numbers, all of which are `f64` too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Format {

@@ -23,6 +23,9 @@ use integers::Exact;
 
 use crate::{Ray, Sphere};
 
+#[cfg(test)]
+mod tests;
+
 /// Finds the nearest hit, where the plain step in `f32` leaves a doubt.
 ///
 /// The line is that of the ray and the sphere. It is at hand and later steps want it, but it has just been written, and to read it

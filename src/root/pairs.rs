@@ -30,6 +30,9 @@ use crate::arithmetic::pair::{
 use crate::arithmetic::scaling::{exponent, scale};
 use crate::float::sqrt;
 
+#[cfg(test)]
+mod tests;
+
 /// Of h, in P.
 pub(super) const H_ERROR: f64 = 16.0 * V;
 /// Of o × d, in P.

@@ -15,6 +15,9 @@ use crate::arithmetic::pair::{
     Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum,
 };
 
+#[cfg(test)]
+mod tests;
+
 /// The least 2 s², in a m.
 const CLEAR: f64 = 1.0 / 65536.0;
 
