@@ -23,6 +23,7 @@ pub(crate) const V: f64 = U * U;
 /// of the sum of the high parts, at most u |a + b| more, by 2 v (|a| + |b|). That makes 3; the fourth is to spare.
 pub(crate) const SUM_ERROR: f64 = 4.0 * V;
 /// Of a product of pairs, in |a b|: Joldes, Muller and Popescu's algorithm 10, for which they prove 5.
+#[cfg(test)]
 pub(crate) const PRODUCT_ERROR: f64 = 5.0 * V;
 /// Of a quotient of pairs, in |a / b|.
 ///

@@ -54,8 +54,8 @@ impl Format {
         relative_error: f64,
         compare: impl FnOnce(Midpoint) -> Ordering,
     ) -> Option<f64> {
-        // Not where it is NaN either.
-        if !(relative_error < 0.25) {
+        // Nor where it is NaN.
+        if relative_error.is_nan() || relative_error > 0.25 {
             return None;
         }
         let error = t.hi.abs() * relative_error;

@@ -88,6 +88,7 @@ impl Setting {
 /// the case from afar.
 #[cold]
 #[inline(never)]
+#[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
 fn nearest_again(
     sphere: &Sphere,
     ray: &Ray,

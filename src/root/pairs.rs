@@ -24,7 +24,7 @@ use super::integers;
 use super::surface::power;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
-    COMPENSATED_DOT_ERROR, Pair, QUOTIENT_ERROR, ROOT_ERROR, SUM_ERROR, U, V, compensated_dot,
+    COMPENSATED_DOT_ERROR, Pair, QUOTIENT_ERROR, ROOT_ERROR, SUM_ERROR, V, compensated_dot,
     fast_two_sum, two_difference, two_product, two_sum,
 };
 use crate::arithmetic::scaling::{exponent, scale};
@@ -86,13 +86,13 @@ impl Scaled {
     /// A root in units of the caller's, if that is exact.
     #[inline(always)]
     pub(super) fn unscaled_root(&self, t: Pair) -> Option<Pair> {
+        /// 2⁻⁹⁰⁰: far enough above the subnormal numbers for the low part to be whole.
+        const LEAST: f64 = f64::from_bits((1023 - 900) << 52);
         let e = self.length_exponent - self.direction_exponent;
         if e == 0 {
             return Some(t);
         }
         let unscaled = Pair { hi: scale(t.hi, e), lo: scale(t.lo, e) };
-        // 2⁻⁵⁰⁰ below the normal numbers' end, so that of the low part nothing is lost that counts.
-        const LEAST: f64 = f64::from_bits((1023 - 900) << 52);
         (unscaled.hi.is_finite() && unscaled.hi.abs() > LEAST).then_some(unscaled)
     }
 
