@@ -284,3 +284,34 @@ fn roots_in_integers_are_the_nearest() {
         }
     }
 }
+
+#[test]
+fn roots_in_integers_are_the_nearest_f32_too() {
+    let check = |numbers: [f64; 10]| {
+        let Some(roots) = ExactChord::new(numbers).roots() else { return };
+        let line = line(numbers);
+        for way in ways(&line) {
+            let Verdict::Hit(found) = chord(&line, way, Format::F32) else {
+                panic!("this hits: {numbers:?}");
+            };
+            for (side, expected) in [Side::Near, Side::Far].into_iter().zip(&roots) {
+                let root = found.root(side).expect("never in doubt").t;
+                #[expect(clippy::cast_possible_truncation, reason = "a guess")]
+                let nearest = nearest(expected, expected.approximately() as f32);
+                assert_eq!(root, nearest.into(), "{side:?} {numbers:?}");
+            }
+        }
+    };
+    // Midpoints of two f32, and what no f64 tells from them.
+    for beside in [0.0, 1e-10, 1e-30] {
+        for radius in [0.5, 1.5, 2.5] {
+            for center in [16_777_215.0, 16_777_218.0, 33_554_431.0] {
+                check([beside, 0.0, center, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, radius]);
+            }
+        }
+    }
+    let mut random = Random::new(5);
+    for _ in 0..500 {
+        check(random_numbers(&mut random));
+    }
+}

@@ -29,6 +29,18 @@ fn part_of_power(exact: &ExactChord, numbers: [f64; 10]) -> f64 {
     let line = line(numbers);
     let (computed, error) = power(line.o(), line.radius);
     assert_eq!(computed.hi + computed.lo, computed.hi, "normalized: {numbers:?}");
+    // No larger than it has to be: close to the surface, hardly more than the last place of the power.
+    let larger = exact.larger().approximately();
+    let is_close = computed.hi.abs() < larger / 2_f64.powi(31);
+    let most = if is_close {
+        1501.0 * U * V * larger + 2.1 * V * computed.hi.abs()
+    } else {
+        41.0 * V * larger
+    };
+    assert!(error <= most, "{error:e} for {:e}: {numbers:?}", computed.hi);
+    // Farther away, the finer sum is not worth its time.
+    let is_far = computed.hi.abs() > larger / 2_f64.powi(29);
+    assert!(!is_far || error >= 39.0 * V * larger, "{error:e} for {:e}", computed.hi);
     part_of_bound(&exactly(computed), &exact.power, &Dyadic::exactly(error))
 }
 
