@@ -18,12 +18,7 @@ pub(crate) enum Material {
 
 impl Material {
     /// Returns the color by which the light is multiplied and the ray on which it came; `None` where it is absorbed.
-    pub(crate) fn scatter(
-        self,
-        ray: &Ray,
-        hit: &Hit,
-        random: &mut Random,
-    ) -> Option<(Vec3, Ray)> {
+    pub(crate) fn scatter(self, ray: &Ray, hit: &Hit, random: &mut Random) -> Option<(Vec3, Ray)> {
         let incoming = ray.direction.normalize();
         let from_outside = hit.front_face(ray);
         // The normal on the side that the ray comes from.
