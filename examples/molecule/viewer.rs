@@ -65,22 +65,23 @@ impl Viewer {
     /// Draws the picture of what `nearest` finds.
     pub(crate) fn picture(&self, nearest: impl Fn(&Ray) -> Option<(usize, Hit)> + Sync) -> Picture {
         /// So many rays a pixel, in each direction.
-        const SAMPLES: u32 = 3;
+        const SAMPLES: u16 = 3;
         let (width, height) = (u32::from(self.width), u32::from(self.height));
+        let samples = u32::from(SAMPLES);
         let row_of_rays = |y: u32| {
-            let rays = self.camera.rays(width * SAMPLES, height * SAMPLES);
-            rays.skip((y * width * SAMPLES) as usize).take((width * SAMPLES) as usize)
+            let rays = self.camera.rays(width * samples, height * samples);
+            rays.skip((y * width * samples) as usize).take((width * samples) as usize)
         };
         let rows = (0..height).into_par_iter().flat_map_iter(|y| {
             let mut row = vec![Vec3::ZERO; width as usize];
-            for y in y * SAMPLES..(y + 1) * SAMPLES {
+            for y in y * samples..(y + 1) * samples {
                 for (x, ray) in row_of_rays(y).enumerate() {
-                    row[x / SAMPLES as usize] += self.color(&ray, nearest(&ray));
+                    row[x / usize::from(SAMPLES)] += self.color(&ray, nearest(&ray));
                 }
             }
             row
         });
-        let scale = 1.0 / (SAMPLES * SAMPLES) as f32;
+        let scale = 1.0 / f32::from(SAMPLES * SAMPLES);
         Picture::new(self.width, rows.map(|sum| sum * scale).collect())
     }
 
