@@ -71,10 +71,14 @@
 //! - `bytemuck`: `Pod` and `Zeroable` for [`Ray`] and [`Sphere`], to upload them to a GPU or read them from a file as bytes.
 //! - `approx-05`: `AbsDiffEq`, `RelativeEq` and `UlpsEq` of approx 0.5, for tests with a tolerance.
 // Without `alloc` these two do not exist, and the links above lead to the documentation with all features.
+#![cfg_attr(not(feature = "alloc"), doc = "")]
 #![cfg_attr(
     not(feature = "alloc"),
-    doc = "\n[`Spheres`]: https://docs.rs/eyeray/latest/eyeray/struct.Spheres.html\n\
-           [`SphereBvh`]: https://docs.rs/eyeray/latest/eyeray/struct.SphereBvh.html"
+    doc = "[`Spheres`]: https://docs.rs/eyeray/latest/eyeray/struct.Spheres.html"
+)]
+#![cfg_attr(
+    not(feature = "alloc"),
+    doc = "[`SphereBvh`]: https://docs.rs/eyeray/latest/eyeray/struct.SphereBvh.html"
 )]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![cfg_attr(not(any(test, feature = "std")), no_std)]
