@@ -8,7 +8,7 @@
 //! use glam::{Vec3, vec2, vec3};
 //!
 //! # fn main() -> Result<(), eyeray::CameraError> {
-//! // A camera at (0, 0, 5) that looks at the origin: vertical field of view 90°, aspect ratio 2.
+//! // At (0, 0, 5), looking at the origin: vertical field of view 90°, aspect ratio 2.
 //! let (eye, target) = (vec3(0.0, 0.0, 5.0), Vec3::ZERO);
 //! let camera = Camera::perspective_fov(eye, target, Vec3::Y, f32::to_radians(90.0), 2.0)?;
 //!
@@ -50,8 +50,8 @@
 //! The types are generic over glam's vectors: [`Vec3`](glam::Vec3), the default, or [`DVec3`](glam::DVec3). See [`Vector`]. `From`
 //! converts rays, spheres, hits, frames and cameras to `f64`, exactly. `to_f32` rounds rays, spheres and view rectangles to `f32`.
 //!
-//! Any version of glam from 0.33.11 to the last 0.34 will do. [`glam`] is the one that this crate was compiled with; the README
-//! says how to have only one version in a program.
+//! Any version of glam from 0.33.11 to the last 0.34 will do. `eyeray::glam` is the one that this crate was compiled with; the
+//! README says how to have only one version in a program.
 //!
 //! # Source
 //!

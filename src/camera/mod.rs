@@ -89,7 +89,7 @@ use pixels::Axis;
 /// use eyeray::{Camera, Ray};
 /// use glam::{Vec2, Vec3};
 ///
-/// /// Returns the ray of a pixel through a point of the lens, given from the center of the lens along U and V.
+/// /// Returns the ray of a pixel through the point `lens` of the lens, along U and V from its center.
 /// fn lens_ray(camera: &Camera, pixel: Vec2, width: u32, height: u32, lens: Vec2) -> Ray {
 ///     let Ray { origin, direction } = camera.pixel_ray(pixel, width, height);
 ///     let [u, v, _] = camera.basis();

@@ -24,8 +24,8 @@ use crate::{Hit, Hittable, Ray, Sphere};
 ///
 /// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost nothing. Up to 16 that are
 /// large compared to the extent of the others, such as the ground, are kept apart and tested with each ray. A sphere with a coordinate or a
-/// radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin has a coordinate beyond 2⁶⁰, or
-/// whose direction is longer than that or shorter than 2⁻³⁰.
+/// radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin is farther than 2⁶⁰ from the
+/// world's, or whose direction is longer than that or shorter than 2⁻³⁰.
 ///
 /// # When to use it
 ///

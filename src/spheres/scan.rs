@@ -20,8 +20,8 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 /// test is bounded, so it never drops a sphere that is hit; the spheres that pass it are intersected exactly.
 ///
 /// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost no more than others. A
-/// sphere with a coordinate or a radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin has
-/// a coordinate beyond 2⁶⁰, or whose direction is longer than that or shorter than 2⁻³⁰.
+/// sphere with a coordinate or a radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin is
+/// farther than 2⁶⁰ from the world's, or whose direction is longer than that or shorter than 2⁻³⁰.
 ///
 /// # When to use it
 ///
