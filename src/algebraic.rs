@@ -1,4 +1,4 @@
-//! Ray and sphere, algebraically: put the ray into the sphere's equation and solve for t.
+//! The algebraic derivation: the ray in the equation of the sphere, solved for t by the quadratic formula.
 
 use core::ops::Range;
 
@@ -6,9 +6,10 @@ use crate::arithmetic::number::{Number, Triple};
 use crate::root::chord::{Chord, Derivation};
 use crate::{Hit, Hittable, Ray, Sphere, Vector};
 
-/// A sphere met by the algebraic derivation.
+/// A sphere whose roots are found by the quadratic formula: the algebraic derivation.
 ///
-/// A point x is on the sphere where `(x - c)·(x - c) = r²`, and on the ray where `x = p + t d`. Together, with `o = c - p`,
+/// A point x is on the sphere with center c and radius r if `(x - c)·(x - c) = r²`, and on the ray with origin p and direction d if
+/// `x = p + t d`. Together, with `o = c - p`,
 ///
 /// ```text
 /// (t d - o)·(t d - o) = r²
@@ -16,8 +17,8 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// t = (d·o ± √discriminant) / d·d,   discriminant = (d·o)² - (d·d) (o·o - r²)
 /// ```
 ///
-/// The direction is not assumed to be unit. In `f32` the roots are the same, bit for bit, as those of
-/// [`Geometric`](crate::Geometric): what is promised is stated at [`Sphere`].
+/// The direction need not be a unit vector. The roots are the same as those of [`Geometric`](crate::Geometric), bit for bit:
+/// [`Sphere`] states what is promised. [`Sphere`] itself uses the faster of the two; this type is for comparing them.
 ///
 /// Source: S. Marschner, CS4620 lecture 6, *Ray Tracing Basics*.
 ///
@@ -29,6 +30,7 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// let ray = Ray::new(vec3(0.0, 0.0, 5.0), vec3(0.0, 0.0, -2.0));
 /// assert_eq!(sphere.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(2.0));
 /// ```
+#[doc(alias("quadratic", "discriminant"))]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(bound(serialize = "Sphere<V>: serde::Serialize")))]

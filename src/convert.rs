@@ -1,10 +1,10 @@
-//! From one precision to the other: to `f64` exactly, with [`From`]; to `f32` rounded, with `to_f32`.
+//! Conversions between the two precisions: exact to `f64`, by [`From`], and rounded to `f32`, by `to_f32`.
 
 use glam::{DVec3, Vec3};
 
 use crate::{Camera, Frame, Hit, Ray, Scalar, Sphere, ViewRect};
 
-/// The same ray: exact.
+/// Converts a ray to `f64`, exactly.
 impl From<Ray<Vec3>> for Ray<DVec3> {
     #[inline]
     fn from(Ray { origin, direction }: Ray<Vec3>) -> Self {
@@ -12,7 +12,7 @@ impl From<Ray<Vec3>> for Ray<DVec3> {
     }
 }
 
-/// The same sphere: exact.
+/// Converts a sphere to `f64`, exactly.
 impl From<Sphere<Vec3>> for Sphere<DVec3> {
     #[inline]
     fn from(Sphere { center, radius }: Sphere<Vec3>) -> Self {
@@ -20,9 +20,9 @@ impl From<Sphere<Vec3>> for Sphere<DVec3> {
     }
 }
 
-/// The same hit: exact. Its spawned rays keep the distance from the surface that an `f32` point needs.
+/// Converts a hit to `f64`, exactly. Its spawned rays keep the distance from the surface that an `f32` point needs.
 ///
-/// There is no way back: a point rounded to `f32` is off by more than the distance at which an `f64` hit spawns its rays.
+/// There is no conversion to `f32`: the error of a point rounded to `f32` is larger than the clearance of an `f64` hit.
 impl From<Hit<Vec3>> for Hit<DVec3> {
     #[inline]
     fn from(hit: Hit<Vec3>) -> Self {
@@ -37,7 +37,7 @@ impl From<Hit<Vec3>> for Hit<DVec3> {
     }
 }
 
-/// The same rectangle: exact.
+/// Converts a view rectangle to `f64`, exactly.
 impl From<ViewRect<f32>> for ViewRect<f64> {
     #[inline]
     fn from(view: ViewRect<f32>) -> Self {
@@ -45,7 +45,7 @@ impl From<ViewRect<f32>> for ViewRect<f64> {
     }
 }
 
-/// The same frame: exact, because a frame keeps its basis in `f64` in both precisions.
+/// Converts a frame to `f64`, exactly, because a frame keeps its basis in `f64` in both precisions.
 impl From<Frame<Vec3>> for Frame<DVec3> {
     #[inline]
     fn from(frame: Frame<Vec3>) -> Self {
@@ -53,8 +53,9 @@ impl From<Frame<Vec3>> for Frame<DVec3> {
     }
 }
 
-/// The same camera: exact, because a camera keeps all its numbers in `f64` in both precisions. Rounded to `f32`, its rays are
-/// those of the camera that it was made from.
+/// Converts a camera to `f64`, exactly, because a camera keeps all its numbers in `f64` in both precisions.
+///
+/// Rounded to `f32`, the rays of the result are the rays of the original.
 ///
 /// ```
 /// use eyeray::Camera;
@@ -76,10 +77,10 @@ impl From<Camera<Vec3>> for Camera<DVec3> {
 }
 
 impl Ray<DVec3> {
-    /// The ray in `f32`, each coordinate rounded to the nearest, ties to even.
+    /// Rounds the ray to `f32`: each coordinate to the nearest, ties to even.
     ///
-    /// What is beyond the largest `f32` becomes infinite, and what is below half the smallest becomes zero: such a ray
-    /// may meet nothing, for its origin or direction is not finite, or its direction zero.
+    /// A coordinate beyond the largest `f32` becomes infinite, and one below half the smallest becomes zero. A ray that is not
+    /// finite, or whose direction becomes zero, hits nothing.
     ///
     /// ```
     /// use eyeray::Ray;
@@ -99,10 +100,10 @@ impl Ray<DVec3> {
 }
 
 impl Sphere<DVec3> {
-    /// The sphere in `f32`, each coordinate of the center and the radius rounded to the nearest, ties to even.
+    /// Rounds the sphere to `f32`: each coordinate of the center and the radius to the nearest, ties to even.
     ///
-    /// What is beyond the largest `f32` becomes infinite, and nothing meets the sphere; a radius below half the smallest
-    /// becomes zero. The rounded sphere neither holds the other nor is held by it.
+    /// A number beyond the largest `f32` becomes infinite, and no ray hits the sphere; a radius below half the smallest becomes zero.
+    /// In general, neither of the two spheres contains the other.
     ///
     /// ```
     /// use eyeray::Sphere;
@@ -119,10 +120,10 @@ impl Sphere<DVec3> {
 }
 
 impl ViewRect<f64> {
-    /// The rectangle in `f32`, each side rounded to the nearest, ties to even.
+    /// Rounds the rectangle to `f32`: each side to the nearest, ties to even.
     ///
-    /// What is beyond the largest `f32` becomes infinite, and sides that are nearer than an `f32` can tell become equal: a
-    /// camera accepts neither.
+    /// A side beyond the largest `f32` becomes infinite, and two sides that round to the same `f32` become equal: a camera accepts
+    /// neither.
     ///
     /// ```
     /// use eyeray::ViewRect;

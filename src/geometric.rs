@@ -1,4 +1,4 @@
-//! Ray and sphere, geometrically: find the closest approach to the center, and step half a chord to either side.
+//! The geometric derivation: the closest approach to the center, and half a chord to either side.
 
 use core::ops::Range;
 
@@ -6,16 +6,15 @@ use crate::arithmetic::number::{Number, Triple};
 use crate::root::chord::{Chord, Derivation};
 use crate::{Hit, Hittable, Ray, Sphere, Vector};
 
-/// A sphere met by the geometric derivation.
+/// A sphere whose roots are found by the closest approach and the half-chord: the geometric derivation.
 ///
-/// The ray passes closest to the center c at `t_m`, at a distance `l_m`. If that is no more than the radius r, the line
-/// meets the sphere half a chord before and half a chord after it, at `t_m - Δt` and `t_m + Δt`.
+/// The line is closest to the center c at `t_m`, at a distance of `l_m`. If `l_m` is at most the radius r, the line intersects the
+/// sphere half a chord before and half a chord after this point, at `t_m - Δt` and `t_m + Δt`.
 ///
 #[doc = include_str!("diagrams/closest_approach.svg")]
 ///
-/// The point of closest approach makes a right triangle with the center and the origin p, and another with the center and
-/// either root, where the radius goes on as the normal n. With `o = c - p`, and every t counted in lengths of the
-/// direction d,
+/// The point of closest approach, the center and the origin p form a right triangle, and so do the point of closest approach, the
+/// center and either intersection, where n is the normal. With `o = c - p`, and every t in lengths of the direction d,
 ///
 /// ```text
 /// t_m  = o·d / d·d
@@ -23,12 +22,12 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// Δt   = √((r² - l_m²) / d·d) = √(r² (d·d) - |o × d|²) / d·d
 /// ```
 ///
-/// In the lecture the sphere is the unit sphere at the world's origin and the direction is unit, so that `t_m = -p·d`,
+/// In the lecture (see below) the sphere is the unit sphere at the origin and the direction is a unit vector, so that `t_m = -p·d`,
 /// `l_m² = p·p - (p·d)²` and `Δt = √(1 - l_m²)`.
 ///
 /// The form with the cross product does not subtract two large squares, and so loses little of `l_m` even where the sphere
-/// is far away. In `f32` the roots are the same, bit for bit, as those of [`Algebraic`](crate::Algebraic): what is promised
-/// is stated at [`Sphere`].
+/// is far away. The roots are the same as those of [`Algebraic`](crate::Algebraic), bit for bit: [`Sphere`] states what is
+/// promised.
 ///
 /// Source: S. Marschner, CS4620 lecture 6, *Ray Tracing Basics*.
 ///
@@ -40,6 +39,7 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// let ray = Ray::new(vec3(0.0, 0.0, 5.0), vec3(0.0, 0.0, -2.0));
 /// assert_eq!(sphere.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(2.0));
 /// ```
+#[doc(alias("closest_approach", "half_chord"))]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(bound(serialize = "Sphere<V>: serde::Serialize")))]

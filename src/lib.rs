@@ -1,22 +1,21 @@
-//! The first step of every ray tracer: make the eye ray, meet the sphere.
+//! Eye rays, cameras and ray-sphere intersection, on glam's vectors.
 //!
-//! The distance to a sphere that this library returns is the exact root, rounded once to the nearest `f32` (in `f64`, within
-//! 1 ulp of it). Whether a ray hits or misses is never wrong. Both are promised for all finite inputs, on every machine, at
-//! little more than the price of the textbook's formula; [`Sphere`] states the contract in full.
+//! Whether a ray hits a sphere is decided exactly, and the distance is correctly rounded: it is the `f32` or `f64` nearest to the
+//! exact root, for all finite inputs and on every machine. [`Sphere`] states the contract in full.
 //!
 //! ```
 //! use eyeray::{Camera, Hittable, Sphere};
 //! use glam::{Vec3, vec2, vec3};
 //!
 //! # fn main() -> Result<(), eyeray::CameraError> {
-//! // A camera at z = 5 that looks at the world's origin, 90 degrees high, twice as wide.
+//! // At (0, 0, 5), looking at the origin: vertical field of view 90°, aspect ratio 2.
 //! let (eye, target) = (vec3(0.0, 0.0, 5.0), Vec3::ZERO);
 //! let camera = Camera::perspective_fov(eye, target, Vec3::Y, f32::to_radians(90.0), 2.0)?;
 //!
 //! // The eye ray through the middle of an image of 640 by 320 pixels.
 //! let ray = camera.pixel_ray(vec2(320.0, 160.0), 640, 320);
 //!
-//! // Any t > 0 along it, in lengths of its direction.
+//! // The nearest hit. Distances count in lengths of the ray's direction.
 //! let sphere = Sphere::new(Vec3::ZERO, 1.0);
 //! let hit = sphere.intersect(&ray, 0.0..f32::INFINITY);
 //! assert_eq!(hit.map(|hit| (hit.t, hit.normal)), Some((4.0, Vec3::Z)));
@@ -26,32 +25,61 @@
 //!
 //! # What is here
 //!
-//! - A [`Frame`] says where a camera stands and which way it is turned. A [`Camera`], orthographic or perspective, makes [`Ray`]s
-//!   from pixels or from points of its [`ViewRect`], and projects points of the scene back to them.
-//! - [`Sphere`] is met by either of two derivations, [`Algebraic`] and [`Geometric`], which agree bit for bit in `f32`.
-//! - [`Hittable`] is what a ray can meet; a [`Hit`] has the distance, the point and the normal, and
-//!   [spawns](Hit::spawn) rays that leave the surface for good.
-//! - [`nearest`] says which of many objects is met first. `Spheres` does so for few or changing spheres sooner, and `SphereBvh`
-//!   for up to millions.
+//! - [`Ray`]: an origin and a direction.
+//! - [`Camera`]: an orthographic or perspective camera. It creates the eye ray of a pixel ([`pixel_ray`](Camera::pixel_ray)), for
+//!   rendering or for picking with the mouse, or of all pixels ([`rays`](Camera::rays)), and finds the pixel of a point
+//!   ([`project_to_pixel`](Camera::project_to_pixel)), for labels.
+//! - [`Frame`] and [`ViewRect`]: the position and orientation of a camera, and the part of its view plane that the image shows.
+//! - [`Sphere`]: a center and a radius. Its roots can be found by the quadratic formula ([`Algebraic`]) or by the closest approach
+//!   ([`Geometric`]); both give the same bits.
+//! - [`Hittable`]: the trait of everything that a ray can hit, with the nearest hit ([`intersect`](Hittable::intersect)) and
+//!   occlusion ([`occludes`](Hittable::occludes)), for shadow rays and lines of sight.
+//! - [`Hit`]: the distance, the point and the normal. [`spawn`](Hit::spawn) creates the reflected, refracted and shadow rays, which
+//!   do not hit the surface that they leave.
+//! - [`nearest`]: which of many objects a ray hits first, and where. For spheres in `f32`, [`Spheres`] and [`SphereBvh`] return
+//!   the same bits in less time.
 //!
-//! All of it is for glam's vectors, [`Vec3`](glam::Vec3) by default and [`DVec3`](glam::DVec3) for twice the precision: see
-//! [`Vector`]. `From` takes rays, spheres, hits and cameras to `f64` exactly, and `to_f32` rounds the plain data back. It is any
-//! glam from 0.33.11 to the last 0.34, and exported again as [`glam`]: the README tells how to have one glam in the tree.
+//! | scene | use |
+//! |:--|:--|
+//! | one sphere, spheres in `f64`, shapes of your own | [`Sphere`], [`Hittable`], and [`nearest`] on a slice |
+//! | `f32` spheres, up to some hundred, or changing | [`Spheres`] |
+//! | more `f32` spheres that stay as they are | [`SphereBvh`] |
 //!
-//! The formulas are those of S. Marschner's CS4620 lecture 6, *Ray Tracing Basics*, generalized to any center, radius and
-//! length of direction. There are no materials, no triangles, no colors and no acceleration structures but that of spheres here.
+//! # Precision
+//!
+//! The types are generic over glam's vectors: [`Vec3`](glam::Vec3), the default, or [`DVec3`](glam::DVec3). See [`Vector`]. `From`
+//! converts rays, spheres, hits, frames and cameras to `f64`, exactly. `to_f32` rounds rays, spheres and view rectangles to `f32`.
+//!
+//! Any version of glam from 0.33.11 to the last 0.34 will do. `eyeray::glam` is the one that this crate was compiled with; the
+//! README says how to have only one version in a program.
+//!
+//! # Source
+//!
+//! The formulas are those of S. Marschner, CS4620 lecture 6, *Ray Tracing Basics*, generalized to any center, radius and length of
+//! direction. Where the documentation of an item says "the lecture", it means this one. Materials, triangles, colors and other
+//! acceleration structures are out of scope.
 //!
 //! # Features
 //!
-//! - `std`, the default: square roots from the hardware, and `alloc`.
-//! - `libm`: for `no_std`, square roots from the [libm](https://docs.rs/libm) crate. One of `std` and `libm` is needed.
-//!   [`Sphere`]'s `intersect` takes 41 kB of a Cortex-M4F's code in `f32`, 48 kB in `f64` and 69 kB in both, optimized for size
-//!   and with the `f64` arithmetic that its hardware lacks (`tests/targets/run`).
-//! - `alloc`: `Spheres` and `SphereBvh`, and [`Hittable`] for `Vec`, `Box`, `Rc` and `Arc`. Implied by `std`.
-//! - `serde`: `Serialize` and `Deserialize` for all data types. A [`Camera`] is checked again when it is deserialized; bit for bit it
-//!   is read by a format that reads each `f64` so: of `serde_json`, that takes the feature `float_roundtrip`.
-//! - `bytemuck`: `Pod` and `Zeroable` for [`Ray`] and [`Sphere`], to hand them to a GPU as bytes.
-//! - `approx-05`: `AbsDiffEq`, `RelativeEq` and `UlpsEq` of approx 0.5, named as glam names its own.
+//! - `std` (default): square roots from the hardware, and `alloc`.
+//! - `libm`: square roots from the [libm](https://docs.rs/libm) crate, for `no_std`. One of `std` and `libm` is needed. `intersect` of a
+//!   [`Sphere`] takes 41 kB of a Cortex-M4F's code in `f32`, 48 kB in `f64` and 69 kB in both, optimized for size and with the
+//!   `f64` arithmetic that its hardware lacks (`tests/targets/run`, in the repository).
+//! - `alloc`: [`Spheres`] and [`SphereBvh`], and [`Hittable`] for `Vec`, `Box`, `Rc` and `Arc`. Implied by `std`.
+//! - `serde`: `Serialize` and `Deserialize` for all data types. A [`Camera`] is validated when it is deserialized. It is read bit for
+//!   bit by a format that reads each `f64` so: `serde_json` needs its feature `float_roundtrip` for that.
+//! - `bytemuck`: `Pod` and `Zeroable` for [`Ray`] and [`Sphere`], to upload them to a GPU or read them from a file as bytes.
+//! - `approx-05`: `AbsDiffEq`, `RelativeEq` and `UlpsEq` of approx 0.5, for tests with a tolerance.
+// Without `alloc` these two do not exist, and the links above lead to the documentation with all features.
+#![cfg_attr(not(feature = "alloc"), doc = "")]
+#![cfg_attr(
+    not(feature = "alloc"),
+    doc = "[`Spheres`]: https://docs.rs/eyeray/latest/eyeray/struct.Spheres.html"
+)]
+#![cfg_attr(
+    not(feature = "alloc"),
+    doc = "[`SphereBvh`]: https://docs.rs/eyeray/latest/eyeray/struct.SphereBvh.html"
+)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![cfg_attr(not(any(test, feature = "std")), no_std)]
 #![cfg_attr(
@@ -88,7 +116,7 @@ mod spheres;
 mod testing;
 mod vector;
 
-/// The glam whose vectors this crate is compiled with.
+/// The version of glam that this crate is compiled with.
 pub use glam;
 
 pub use algebraic::Algebraic;

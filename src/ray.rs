@@ -1,16 +1,19 @@
-//! A ray: the half line `r(t) = p + t d`, t > 0.
+//! A ray: the half-line `r(t) = p + t d`, t > 0.
 
 use crate::Vector;
 
-/// A ray, the half line `r(t) = p + t d` for t > 0, with p the [`origin`](Self::origin) and d the
-/// [`direction`](Self::direction).
+/// A ray, `r(t) = p + t d` for t > 0: a half-line from its origin p along its direction d.
 ///
-/// The direction need not be unit. Every distance `t` along a ray counts in lengths of its direction, so scaling the
-/// direction by a > 0 leaves the half line as it is and divides every `t` by a.
+/// Rays are used to see (the eye rays of a [`Camera`](crate::Camera)), to pick what is below the mouse, to test whether something
+/// is in the line of sight (shadow rays), and to follow light that is reflected or refracted
+/// ([`Hit::spawn`](crate::Hit::spawn)).
+///
+/// The direction need not be a unit vector. Every distance `t` along a ray counts in lengths of its direction: scaling the
+/// direction by a > 0 leaves the half-line as it is and divides every `t` by a.
 ///
 #[doc = include_str!("diagrams/ray.svg")]
 ///
-/// Any value is allowed in the fields. A ray with a NaN, an infinity or a zero direction meets nothing.
+/// Any value is allowed in the fields. A ray with a NaN, an infinity or a zero direction hits nothing.
 ///
 /// ```
 /// use eyeray::Ray;
@@ -23,9 +26,9 @@ use crate::Vector;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C)]
 pub struct Ray<V = glam::Vec3> {
-    /// Where the ray starts: the lecture's p.
+    /// The point where the ray starts.
     pub origin: V,
-    /// Where it goes, and the unit in which distances along it count: the lecture's d.
+    /// The direction, whose length is the unit of distances along the ray.
     pub direction: V,
 }
 

@@ -1,4 +1,4 @@
-//! The two vector types that everything here is generic over.
+//! The two vector types over which the crate is generic.
 
 use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -10,13 +10,13 @@ use crate::root::precision::Precision;
 
 /// A glam vector of three dimensions: [`Vec3`] or [`DVec3`].
 ///
-/// It lets a function be written once for both precisions. It is sealed: the contract of this crate is proved for these
-/// two types and no other.
+/// Use it to write a function for both precisions. The trait is sealed, because the contract of this crate is proved for these two
+/// types only.
 ///
 /// ```
 /// use eyeray::{Ray, Vector};
 ///
-/// /// Where the ray is after one length of its direction.
+/// /// Returns the point at t = 1.
 /// fn tip<V: Vector>(ray: &Ray<V>) -> V {
 ///     ray.origin + ray.direction
 /// }
@@ -38,30 +38,32 @@ pub trait Vector:
     + Neg<Output = Self>
     + Mul<Self::Scalar, Output = Self>
 {
-    /// The type of a coordinate, and of the distance `t`: `f32` or `f64`.
+    /// The type of a coordinate and of a distance: `f32` or `f64`.
     type Scalar: Scalar;
 
-    /// The vector of two dimensions with the same coordinates, for the view plane and for pixels.
+    /// The vector of two dimensions of the same precision, for points of the view plane and for pixels.
     type Vec2: Copy + Debug + Default + PartialEq + Send + Sync + 'static;
 
-    /// The same vector in `f64`: exact.
+    /// Converts the vector to `f64`, exactly.
     fn to_f64(self) -> DVec3;
 
-    /// The nearest vector of this precision, coordinate by coordinate: beyond the largest finite value, infinite.
+    /// Rounds each coordinate to the nearest value of this precision: beyond the largest finite one, infinity.
     fn from_f64(vector: DVec3) -> Self;
 
-    /// The same pair in `f64`: exact.
+    /// Converts the vector of two dimensions to `f64`, exactly.
     fn vec2_to_f64(vector: Self::Vec2) -> DVec2;
 
-    /// The nearest pair of this precision, coordinate by coordinate.
+    /// Rounds each of two coordinates to the nearest value of this precision.
     fn vec2_from_f64(vector: DVec2) -> Self::Vec2;
 
-    /// The dot product, as glam computes it.
+    /// Computes the dot product, as glam does.
     #[must_use]
     fn dot(self, other: Self) -> Self::Scalar;
 }
 
-/// A coordinate of a [`Vector`]: `f32` or `f64`. Sealed, as [`Vector`] is.
+/// The type of a coordinate of a [`Vector`]: `f32` or `f64`.
+///
+/// The trait is sealed, as [`Vector`] is.
 pub trait Scalar:
     RoundDown
     + Copy
@@ -80,14 +82,14 @@ pub trait Scalar:
     + Neg<Output = Self>
     + Into<f64>
 {
-    /// 0.
+    /// Zero.
     const ZERO: Self;
-    /// 1.
+    /// One.
     const ONE: Self;
-    /// +∞: `Scalar::ZERO..Scalar::INFINITY` is the whole half-line.
+    /// Infinity. `V::Scalar::ZERO..V::Scalar::INFINITY` is the range of a whole ray.
     const INFINITY: Self;
 
-    /// The nearest value of this precision: beyond the largest finite one, infinite.
+    /// Rounds to the nearest value of this precision: beyond the largest finite one, infinity.
     fn from_f64(value: f64) -> Self;
 }
 

@@ -1,4 +1,4 @@
-//! The camera basis: three unit vectors at right angles, from the direction of view and from what is up.
+//! The camera basis: three orthonormal vectors, from the direction of view and the up vector.
 //!
 //! ```text
 //!     w = -(to - from) / |to - from|      against the direction of view

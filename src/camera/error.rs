@@ -1,11 +1,11 @@
-//! Why there is no camera.
+//! The error type of cameras and their frames.
 
 use core::error::Error;
 use core::fmt::{Display, Formatter, Result};
 
-/// Why a [`Frame`](crate::Frame) or a [`Camera`](crate::Camera) could not be made: which argument is at fault, and how.
+/// The error type of the constructors of [`Frame`](crate::Frame) and [`Camera`](crate::Camera): which argument is invalid, and why.
 ///
-/// Where several are at fault, it names one of them.
+/// If several are invalid, it is about one of them.
 ///
 /// ```
 /// use eyeray::{CameraArgument, CameraError, Frame};
@@ -21,10 +21,10 @@ use core::fmt::{Display, Formatter, Result};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum CameraError {
-    /// The argument is a NaN or infinite, or has a coordinate that is.
+    /// The argument, or one of its coordinates, is NaN or infinite.
     ///
-    /// [`View`](CameraArgument::View) also stands for a width or a height that overflows `f64`, and
-    /// [`Aspect`](CameraArgument::Aspect) for an aspect ratio so large that the width of the view does.
+    /// Also returned for a [`View`](CameraArgument::View) whose width or height overflows `f64`, and for an
+    /// [`Aspect`](CameraArgument::Aspect) so large that the width of the view overflows.
     NotFinite(CameraArgument),
     /// The eye and the target are the same point, so there is no direction of view.
     EyeAtTarget,
@@ -32,9 +32,9 @@ pub enum CameraError {
     ZeroDirection,
     /// The up vector is zero.
     ZeroUp,
-    /// The up vector points exactly along the direction of view, or exactly against it.
+    /// The up vector is parallel to the direction of view: exactly along it or exactly against it.
     UpAlongView,
-    /// The view rectangle has no area: its right is not greater than its left, or its top not than its bottom.
+    /// The view rectangle is empty: `left < right` or `bottom < top` does not hold.
     EmptyView,
     /// The distance from the eye to the view plane is zero or negative.
     DistanceNotPositive,
@@ -44,7 +44,7 @@ pub enum CameraError {
     AspectNotPositive,
 }
 
-/// An argument of the functions that make a [`Frame`](crate::Frame) or a [`Camera`](crate::Camera), as [`CameraError`] names it.
+/// An argument of the constructors of [`Frame`](crate::Frame) and [`Camera`](crate::Camera), in a [`CameraError`].
 ///
 /// ```
 /// use eyeray::CameraArgument;
@@ -55,9 +55,9 @@ pub enum CameraError {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum CameraArgument {
-    /// `eye`: where the camera stands.
+    /// `eye`: the position of the camera.
     Eye,
-    /// `target`: the point that it looks at.
+    /// `target`: the point that the camera looks at.
     Target,
     /// `direction`: the direction of view.
     Direction,
@@ -65,7 +65,7 @@ pub enum CameraArgument {
     Up,
     /// `view`: the view rectangle.
     View,
-    /// `distance`: from the eye to the view plane, the focal length.
+    /// `distance`: the distance from the eye to the view plane, the focal length.
     Distance,
     /// `fov_y`: the vertical field of view.
     FovY,
@@ -89,7 +89,7 @@ impl Display for CameraError {
     }
 }
 
-/// The argument's name in the functions that take it.
+/// Writes the name of the argument, as in the signatures.
 impl Display for CameraArgument {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         f.write_str(match self {

@@ -1,4 +1,4 @@
-//! The camera frame: where the camera stands, and which way it is turned.
+//! The camera frame: the position and the orientation of a camera.
 
 use core::fmt::{Debug, Formatter};
 use core::marker::PhantomData;
@@ -10,10 +10,10 @@ use super::{Camera, Projection};
 use crate::float::tan;
 use crate::{CameraArgument, CameraError, Vector, ViewRect};
 
-/// The camera frame: the eye e and the camera's basis, three unit vectors at right angles to one another.
+/// A camera frame: the position of a camera, the eye e, and its orientation, an orthonormal basis.
 ///
-/// U points to the right of the image, V up, and W backwards, against the direction of view. A frame is what a [`Camera`] has
-/// besides its view rectangle and its projection: it makes cameras, and [`Camera::frame`] gives it back without losing a digit.
+/// U points to the right of the image, V up, and W backwards, against the direction of view. A [`Camera`] is a frame with a view
+/// rectangle and a projection. Frames create cameras, and [`Camera::frame`] returns the frame without losing a digit.
 ///
 /// ```
 /// use eyeray::{Frame, ViewRect};
@@ -34,9 +34,9 @@ use crate::{CameraArgument, CameraError, Vector, ViewRect};
 ///
 /// # Which way is up
 ///
-/// Of `up`, only the direction counts, and it need not be at a right angle to the view: V is the part of it that is. It must
-/// not be parallel to the view. So a camera that looks straight down cannot take the vertical for up: pass the horizontal
-/// direction that is to be at the top of the image, for instance north of a map.
+/// Only the direction of `up` counts. It need not be at a right angle to the view: V is the part of it that is. It must not be
+/// parallel to the view. For a camera that looks straight down, pass the horizontal direction that points to the top of the image
+/// instead of the vertical, such as the north of a map.
 ///
 /// ```
 /// use eyeray::Frame;
@@ -50,7 +50,8 @@ use crate::{CameraArgument, CameraError, Vector, ViewRect};
 /// # }
 /// ```
 ///
-/// A camera on a gimbal or in an orbit has an up of its own to pass: the one that it had before it was turned, turned with it.
+/// A camera that can turn all the way over, on a gimbal or in an orbit, needs an up vector of its own, which is rotated along with
+/// the direction of view.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Frame<V: Vector = glam::Vec3> {
     pub(crate) eye: DVec3,
@@ -61,10 +62,10 @@ pub struct Frame<V: Vector = glam::Vec3> {
 }
 
 impl<V: Vector> Frame<V> {
-    /// Creates the frame of a camera at `eye` that looks at the point `target`, with `up` upwards in the image.
+    /// Creates the frame of a camera at `eye` that looks at `target`, with `up` upwards in the image.
     ///
-    /// Of `target`, only its direction from the eye counts. Where that is what is known, [`look_to`](Self::look_to) takes it
-    /// as it is: to add it to the eye, in order to pass the sum as target, would round it.
+    /// Only the direction from the eye to `target` counts. If this direction is known, use [`look_to`](Self::look_to): the sum of the
+    /// eye and the direction would be rounded.
     ///
     /// ```
     /// use eyeray::Frame;
@@ -92,8 +93,8 @@ impl<V: Vector> Frame<V> {
 
     /// Creates the frame of a camera at `eye` that looks along `direction`, with `up` upwards in the image.
     ///
-    /// The direction need not be unit, and is never added to the eye, so it keeps all its digits however far from the origin
-    /// the camera stands.
+    /// The direction need not be a unit vector. It is never added to the eye, so it keeps all its digits, however far the camera is
+    /// from the world's origin.
     ///
     /// ```
     /// use eyeray::Frame;
@@ -142,22 +143,22 @@ impl<V: Vector> Frame<V> {
         Frame::from_parts(self.eye, [self.u, self.v, self.w])
     }
 
-    /// Returns the eye: where the camera stands.
+    /// Returns the eye, the position of the camera.
     #[must_use]
     pub fn eye(&self) -> V {
         V::from_f64(self.eye)
     }
 
-    /// Returns the unit vectors U (to the right), V (up) and W (backwards), at right angles to one another.
+    /// Returns the orthonormal basis: U (to the right), V (up) and W (backwards).
     ///
-    /// The frame keeps them in `f64`; each coordinate is rounded to the precision of `V` here.
+    /// The frame keeps it in `f64`; this rounds each coordinate to the precision of `V`.
     #[must_use]
     #[doc(alias("right", "up", "forward", "axes"))]
     pub fn basis(&self) -> [V; 3] {
         [self.u, self.v, self.w].map(V::from_f64)
     }
 
-    /// Creates the orthographic camera of this frame: the eye is in its view plane.
+    /// Creates an orthographic camera with this frame. The eye is in its view plane.
     ///
     /// ```
     /// use eyeray::{Frame, ViewRect};
@@ -179,8 +180,7 @@ impl<V: Vector> Frame<V> {
         self.camera(view.map(Into::into), Projection::Orthographic)
     }
 
-    /// Creates the perspective camera of this frame that sees through a view rectangle at `distance` from the eye: the focal
-    /// length.
+    /// Creates a perspective camera with this frame and a view rectangle at `distance` from the eye, the focal length.
     ///
     /// ```
     /// use eyeray::{Frame, ViewRect};
@@ -212,10 +212,10 @@ impl<V: Vector> Frame<V> {
         self.camera(view.map(Into::into), Projection::Perspective { distance })
     }
 
-    /// Creates the perspective camera of this frame whose vertical field of view is `fov_y`, in radians, and whose image is
-    /// `aspect` times as wide as high.
+    /// Creates a perspective camera with this frame, the vertical field of view `fov_y`, in radians, and the aspect ratio `aspect`,
+    /// width over height.
     ///
-    /// Its view rectangle is centered, at distance 1: its top is `tan(fov_y / 2)`, its right `aspect` times that.
+    /// The view rectangle is centered, at distance 1: its top is `tan(fov_y / 2)`, its right `aspect` times that.
     ///
     /// The tangent is the standard library's, whose last bit may differ between platforms, or with this crate's
     /// feature `libm` that of the libm crate, the same on every machine.

@@ -1,7 +1,7 @@
-//! The camera: which ray belongs to which point of the image.
+//! The camera: the eye ray of a point of the image, and the point of the image of a point of the scene.
 //!
-//! The lecture's frame: the eye e, and the basis u (to the right), v (up), w (backwards) from `basis.rs`. The image is
-//! the view rectangle in the plane of u and v, as S. Marschner's CS4620 lecture 6 has it:
+//! The camera frame is the eye e and the basis U (to the right), V (up), W (backwards). The image is the view rectangle in the
+//! plane of U and V, as in S. Marschner's CS4620 lecture 6:
 //!
 //! ```text
 //!     orthographic    s = e + u U + v V           p = s    d = -W
@@ -10,13 +10,13 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `frame` | e, U, V and W, and the cameras that are made of them |
-//! | `basis` | U, V and W from the direction of view and from what is up |
+//! | `frame` | e, U, V and W, and the cameras created from them |
+//! | `basis` | U, V and W from the direction of view and the up vector |
 //! | `view_rect` | the view rectangle |
 //! | `pixels` | from a pixel to (u, v) |
-//! | `rays` | the rays of all pixels, one after the other |
+//! | `rays` | an iterator over the rays of all pixels |
 //! | `projection` | from a point of the scene to (u, v) |
-//! | `error` | why there is no camera |
+//! | `error` | the error type |
 
 mod basis;
 mod error;
@@ -36,18 +36,19 @@ pub use view_rect::ViewRect;
 use crate::{Ray, Scalar, Vector};
 use pixels::Axis;
 
-/// A camera: makes the eye ray through each point of an image, and finds the pixel at which a point of the scene is seen.
+/// An orthographic or perspective camera: creates eye rays from pixels, and projects points of the scene to pixels.
 ///
-/// It stands at the eye e and has three unit vectors at right angles to one another, its [basis](Self::basis): U to the
-/// right, V up, and W backwards, against the direction of view; the two together are its [`Frame`]. A point (u, v) of the view
-/// plane lies u along U and v along V from the point straight ahead of the eye; the image shows the part of that plane in the
-/// [view rectangle](ViewRect).
+/// Eye rays are used for rendering, and for picking: [`pixel_ray`](Self::pixel_ray) of the position of the mouse is the ray to
+/// intersect with the scene. Projections are used for labels and markers: see [`project_to_pixel`](Self::project_to_pixel).
 ///
-/// - **Orthographic**: the eye lies in the view plane. Each ray begins at a point s of that plane, and all are parallel. So
-///   what lies behind the view plane is not seen: to see it, move the eye back, against the direction of view, until
-///   the whole scene is ahead of it. Nothing else changes in the image.
-/// - **Perspective**: the view plane is ahead of the eye, at a distance, the focal length. Each ray begins at the eye and
-///   goes through a point s of that plane. Its direction is not unit, so that `t = 1` is the view plane.
+/// A camera has a [`Frame`]: the eye e and an orthonormal [basis](Self::basis), with U to the right, V up, and W backwards,
+/// against the direction of view. A point (u, v) of the view plane is u along U and v along V from the point straight ahead of the
+/// eye. The image shows the part of this plane inside the [view rectangle](ViewRect).
+///
+/// - **Orthographic**: the eye is in the view plane. Each ray starts at a point s of this plane, and all are parallel. What is behind
+///   the view plane is not visible: to see it, move the eye back, against the direction of view. Nothing else changes in the image.
+/// - **Perspective**: the view plane is ahead of the eye, at a distance, the focal length. Each ray starts at the eye and
+///   goes through a point s of this plane. Its direction is not a unit vector: `t = 1` is the view plane.
 ///
 /// ```text
 /// orthographic    s = e + u U + v V                 origin s,  direction -W
@@ -76,19 +77,19 @@ use pixels::Axis;
 /// # }
 /// ```
 ///
-/// The three constructors take a point to look at. Where a direction of view is known instead, or one frame is to make several
-/// cameras, begin with a [`Frame`].
+/// The three constructors take a target to look at. For a direction of view, or for several cameras with the same frame, start
+/// with a [`Frame`].
 ///
 /// # Depth of field
 ///
-/// With the view plane at the distance that is to be in focus, a thin lens is a few lines, because every ray passes its point
-/// of the view plane at `t = 1`, wherever on the lens it begins:
+/// With the view plane at the focus distance, a thin lens takes a few lines, because each ray passes its point of the view plane at
+/// `t = 1`, wherever on the lens it starts:
 ///
 /// ```
 /// use eyeray::{Camera, Ray};
 /// use glam::{Vec2, Vec3};
 ///
-/// /// The ray of a pixel through the point of the lens that is `lens` off its center, along U and V.
+/// /// Returns the ray of a pixel through the point `lens` of the lens, along U and V from its center.
 /// fn lens_ray(camera: &Camera, pixel: Vec2, width: u32, height: u32, lens: Vec2) -> Ray {
 ///     let Ray { origin, direction } = camera.pixel_ray(pixel, width, height);
 ///     let [u, v, _] = camera.basis();
@@ -106,7 +107,7 @@ use pixels::Axis;
 ///
 /// # Normalized device coordinates
 ///
-/// With x to the right and y upwards, each from -1 to 1, they are the pixels of an image of 2 by 2:
+/// Normalized device coordinates, with x to the right and y upwards, each from -1 to 1, are pixels of an image of 2 by 2:
 ///
 /// ```
 /// # use eyeray::{Camera, CameraError, ViewRect};
@@ -123,16 +124,16 @@ use pixels::Axis;
 ///
 /// # Which precision
 ///
-/// `f32` suffices where the scene is within some thousand times the size of its smallest detail from the world's origin. It has no
-/// numbers between 10⁷ and 10⁷ + 1: of an orthographic camera there, a thousand pixels of a millimeter share one
-/// origin, and so does every perspective camera within a meter. Place such cameras with [`DVec3`](glam::DVec3), or move the
-/// world's origin to the camera. `Camera::<DVec3>::from` takes a camera to `f64`, exactly.
+/// `f32` is precise enough within some thousand times the size of the scene's smallest detail from the world's origin. There is no
+/// `f32` between 10⁷ and 10⁷ + 1: for an orthographic camera there, with pixels of a millimeter, the rays of a thousand pixels
+/// start at the same point. Use [`DVec3`](glam::DVec3) for such cameras, or move the world's origin to the camera.
+/// `Camera::<DVec3>::from` converts a camera to `f64`, exactly.
 ///
 /// # Accuracy
 ///
-/// A camera computes in `f64` and rounds to the precision of `V` at the end; what would be beyond the largest finite value
-/// is infinite. Each ray of [`ray`](Self::ray) and of [`pixel_ray`](Self::pixel_ray) is the exact one of the given values,
-/// up to this:
+/// A camera computes in `f64` and rounds to the precision of `V` at the end. A coordinate beyond the largest finite value
+/// becomes infinite. Each ray of [`ray`](Self::ray) and of [`pixel_ray`](Self::pixel_ray) is the exact one for the given
+/// values, up to these bounds:
 ///
 /// - With [`Vec3`](glam::Vec3), wherever in the scene the camera stands and however near to the view its up vector is, the
 ///   direction is off by less than 1 ulp of its length, and the origin by less than 1 ulp of its largest coordinate plus
@@ -144,18 +145,18 @@ use pixels::Axis;
 /// |e| + |u| + |v|, is at least an eighth of a pixel long. At the center of a pixel it holds however short they are, so that the
 /// middle of a centered view is exactly straight ahead.
 ///
-/// A projected point is rounded once, from an `f64` that is off by at most this, with h = 2⁻⁵³ and f the vector from the eye to
-/// the point:
+/// A projected point is rounded once, from an `f64` with at most the following error, where h = 2⁻⁵³ and f is the vector from the
+/// eye to the point:
 ///
 /// - [`depth`](Self::depth), and u and v of an orthographic camera, by 5 h |f|;
 /// - u and v of a perspective camera by 6 h L (1 + L / distance), with L the length of the direction of the ray that reaches the
-///   point: little, unless the point is seen far aside;
-/// - [`project_to_pixel`](Self::project_to_pixel) by what u or v is off, counted in pixels, and by 4 h of itself.
+///   point: small unless the point is far from the middle of the view;
+/// - [`project_to_pixel`](Self::project_to_pixel) by the error of u or v, in pixels, and by 4 h of itself.
 ///
-/// `cargo test --test camera accuracy` compares all of them with exact integers.
+/// `cargo test --test camera accuracy`, in the repository, compares all of them with exact integer arithmetic.
 ///
-/// There is nothing in it but sums, products, quotients and square roots, so a camera is the same on every machine, unless
-/// the tangent of [`perspective_fov`](Self::perspective_fov) is not.
+/// A camera uses only sums, products, quotients and square roots, so it is the same on every machine. The exception is the tangent
+/// of [`perspective_fov`](Self::perspective_fov), which is the same on every machine with the feature `libm`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera<V: Vector = glam::Vec3> {
     pub(crate) frame: Frame<V>,
@@ -163,7 +164,7 @@ pub struct Camera<V: Vector = glam::Vec3> {
     pub(crate) projection: Projection,
 }
 
-/// How the points of the view plane become rays.
+/// The kind of projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Projection {
     Orthographic,
@@ -171,10 +172,10 @@ pub(crate) enum Projection {
 }
 
 impl<V: Vector> Camera<V> {
-    /// Creates the orthographic camera at `eye` that looks at `target`, with `up` upwards in the image: short for
-    /// [`Frame::look_at`] and [`Frame::orthographic`].
+    /// Creates an orthographic camera at `eye` that looks at `target`, with `up` upwards in the image.
     ///
-    /// Only directions count: from the eye to `target`, and of `up`, which need not be at a right angle to the view.
+    /// Short for [`Frame::look_at`] and [`Frame::orthographic`]. Only the direction from the eye to `target` counts, and only the
+    /// direction of `up`, which need not be at a right angle to the view.
     /// [`Frame`] says what to pass as `up` when looking straight down.
     ///
     /// ```
@@ -206,11 +207,11 @@ impl<V: Vector> Camera<V> {
         Frame::look_at(eye, target, up)?.orthographic(view)
     }
 
-    /// Creates the perspective camera at `eye` that looks at `target`, with `up` upwards in the image, through a view
-    /// rectangle at `distance` from the eye, the focal length: short for [`Frame::look_at`] and [`Frame::perspective`].
+    /// Creates a perspective camera at `eye` that looks at `target`, with `up` upwards in the image, through a view rectangle at
+    /// `distance`, the focal length.
     ///
-    /// Only directions count: from the eye to `target`, which need not be in the view plane, and of `up`, which need not be
-    /// at a right angle to the view. [`Frame`] says what to pass as `up` when looking straight down.
+    /// Short for [`Frame::look_at`] and [`Frame::perspective`]. Only the direction from the eye to `target` counts, which need not be
+    /// in the view plane, and only the direction of `up`, which need not be at a right angle to the view. [`Frame`] says what to pass as `up` when looking straight down.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};
@@ -241,9 +242,10 @@ impl<V: Vector> Camera<V> {
         Frame::look_at(eye, target, up)?.perspective(view, distance)
     }
 
-    /// Creates the perspective camera at `eye` that looks at `target`, with `up` upwards in the image, whose vertical field of
-    /// view is `fov_y`, in radians, and whose image is `aspect` times as wide as high: short for [`Frame::look_at`] and
-    /// [`Frame::perspective_fov`], which says more.
+    /// Creates a perspective camera at `eye` that looks at `target`, with `up` upwards in the image, with the vertical field of view
+    /// `fov_y`, in radians, and the aspect ratio `aspect`, width over height.
+    ///
+    /// Short for [`Frame::look_at`] and [`Frame::perspective_fov`], which says more.
     ///
     /// ```
     /// use core::f32::consts::FRAC_PI_2;
@@ -276,8 +278,8 @@ impl<V: Vector> Camera<V> {
 
     /// Returns the eye ray through the point (u, v) of the view plane, which need not be inside the view rectangle.
     ///
-    /// A u or v that is a NaN or infinite gives a ray that is not finite, which meets nothing. No coordinate of a direction is
-    /// -0, but for negative ones too small for `V`.
+    /// If u or v is NaN or infinite, the ray is not finite, and hits nothing. No coordinate of a direction is -0, except a negative
+    /// one that is too small for `V`.
     ///
     /// ```
     /// use eyeray::{Camera, Hittable, Sphere, ViewRect};
@@ -300,7 +302,7 @@ impl<V: Vector> Camera<V> {
         self.ray_in_row(self.common(), self.row(v), u)
     }
 
-    /// What the eye rays of one v have in common: v V, and in perspective all of s - e but u U.
+    /// The part that the eye rays of one v share: v V, and in perspective all of s - e but u U.
     #[inline]
     fn row(&self, v: f64) -> DVec3 {
         let in_plane = v * self.frame.v;
@@ -313,7 +315,7 @@ impl<V: Vector> Camera<V> {
         }
     }
 
-    /// What all the eye rays have in common: their direction -W, or in perspective their origin.
+    /// The part that all eye rays share: their direction -W, or in perspective their origin.
     #[inline]
     fn common(&self) -> V {
         V::from_f64(match self.projection {
@@ -335,12 +337,14 @@ impl<V: Vector> Camera<V> {
 
     /// Returns the eye ray through a point of an image of `width` by `height` pixels that shows the view rectangle.
     ///
-    /// The point (x, y) counts in pixels, rightwards and downwards from the top left corner of the image, so the center of
-    /// the first pixel is (0.5, 0.5) and the bottom right corner is (`width`, `height`). In the view plane it is
+    /// The point (x, y) is given in pixels, rightwards and downwards from the top left corner of the image: the center of the first
+    /// pixel is (0.5, 0.5), and the bottom right corner is (`width`, `height`). In the view plane it is
     /// `u = left + (right - left) x / width` and `v = top - (top - bottom) y / height`.
     ///
-    /// The point may be anywhere inside a pixel, as antialiasing wants it, and outside the image as well. A `width` or
-    /// `height` of 0 counts as 1. A NaN or an infinity gives a ray that is not finite, which meets nothing.
+    /// The point may be anywhere inside a pixel, for antialiasing, or outside the image. A `width` or `height` of 0 counts as 1. If x
+    /// or y is NaN or infinite, the ray is not finite, and hits nothing.
+    ///
+    /// For picking, pass the position of the mouse, and intersect the ray with the scene.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};
@@ -380,7 +384,7 @@ impl<V: Vector> Camera<V> {
     /// Returns an iterator over the rays through the centers of all pixels of an image, row by row from the top, each row from
     /// the left.
     ///
-    /// The ray of the pixel in column i and row j is that of [`pixel_ray`](Self::pixel_ray) at (i + 0.5, j + 0.5), in less
+    /// The ray of the pixel in column i and row j is the same as [`pixel_ray`](Self::pixel_ray) at (i + 0.5, j + 0.5), and takes less
     /// time.
     ///
     /// ```
@@ -404,14 +408,14 @@ impl<V: Vector> Camera<V> {
 
     /// Returns the point (u, v) of the view plane whose eye ray reaches `point`: the inverse of [`ray`](Self::ray).
     ///
-    /// `None` where no eye ray reaches the point:
+    /// Returns `None` if no eye ray reaches the point:
     ///
-    /// - in perspective at the eye, and beside or behind it;
-    /// - orthographically behind the view plane, and on it, for a ray begins there but reaches only what has `t > 0`;
+    /// - for a perspective camera, if the point is the eye, or beside or behind it;
+    /// - for an orthographic camera, if it is behind the view plane or in it, where rays start but have `t = 0`;
     /// - if the point is not finite, or u or v would not be.
     ///
-    /// Which side of the eye a point is on is decided in `f64`: if it is nearer to the plane through the eye, at right
-    /// angles to the view, than 2⁻⁵⁰ of its distance from the eye, rounding may say either.
+    /// Whether a point is ahead of the eye is decided in `f64`. If its distance from the plane through the eye, at right angles to the
+    /// view, is less than 2⁻⁵⁰ of its distance from the eye, rounding may decide either way.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};
@@ -430,14 +434,13 @@ impl<V: Vector> Camera<V> {
         finite::<V>(self.project_in_f64(point)?)
     }
 
-    /// Returns the point (x, y) of an image of `width` by `height` pixels at which `point` is seen: the inverse of
-    /// [`pixel_ray`](Self::pixel_ray).
+    /// Projects a point of the scene to an image of `width` by `height` pixels: the inverse of [`pixel_ray`](Self::pixel_ray).
     ///
-    /// As there, x and y count in pixels from the top left corner, and the point is inside the image if and only if
-    /// 0 ≤ x < `width` and 0 ≤ y < `height`. Whether anything hides it, a shadow ray can tell.
+    /// As there, x and y are in pixels from the top left corner. The point is inside the image if and only if 0 ≤ x < `width` and
+    /// 0 ≤ y < `height`. Whether something hides it can be found with a shadow ray, or by intersecting the `pixel_ray` there.
     ///
-    /// `None` where [`project`](Self::project) is, but that x and y must be finite instead of u and v. A `width` or `height` of 0
-    /// counts as 1.
+    /// Returns `None` in the cases of [`project`](Self::project), with x and y instead of u and v. A `width` or `height` of 0 counts
+    /// as 1.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};
@@ -464,12 +467,12 @@ impl<V: Vector> Camera<V> {
         finite::<V>(DVec2::new(x, y))
     }
 
-    /// Returns how far ahead of the eye the point is: its distance along -W, in the units of the scene.
+    /// Returns the depth of a point: its distance ahead of the eye along -W, in the units of the scene.
     ///
-    /// Positive ahead, zero beside the eye, and negative behind it. Not finite if the point is not.
+    /// The depth is positive ahead of the eye, zero beside it, and negative behind it. It is not finite if the point is not.
     ///
-    /// The eye ray of the point, whose direction is not normalized, reaches it at `t = depth / distance` in perspective, and at
-    /// `t = depth` orthographically.
+    /// The eye ray of the point reaches it at `t = depth / distance` for a perspective camera, and at `t = depth` for an orthographic
+    /// one.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};
@@ -494,10 +497,10 @@ impl<V: Vector> Camera<V> {
         Camera { frame: self.frame.cast(), view: self.view, projection: self.projection }
     }
 
-    /// Returns the frame: the eye and the basis, in all the digits that the camera has.
+    /// Returns the frame, the eye and the basis, with all the digits that the camera has.
     ///
-    /// A camera made of it with the arguments of this one is this one, bit for bit; with others, it is the same camera with
-    /// another view: after a window was resized, for a tile of the image, or zoomed.
+    /// A camera created from it with the same arguments is the same camera, bit for bit. Use it for the same camera with another
+    /// view: after a window was resized, for a tile of the image, or to zoom.
     ///
     /// ```
     /// use eyeray::Camera;
@@ -517,7 +520,7 @@ impl<V: Vector> Camera<V> {
         self.frame
     }
 
-    /// Returns the unit vectors U (to the right), V (up) and W (backwards), at right angles to one another.
+    /// Returns the orthonormal basis: U (to the right), V (up) and W (backwards).
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};
@@ -537,13 +540,14 @@ impl<V: Vector> Camera<V> {
         self.frame.basis()
     }
 
-    /// Returns the eye: where the camera stands.
+    /// Returns the eye, the position of the camera.
     #[must_use]
+    #[doc(alias("position", "origin"))]
     pub fn eye(&self) -> V {
         self.frame.eye()
     }
 
-    /// Returns the view rectangle, rounded to the precision of `V` where it was made from a field of view.
+    /// Returns the view rectangle. It is rounded to the precision of `V` if it was computed from a field of view.
     #[must_use]
     pub fn view(&self) -> ViewRect<V::Scalar> {
         self.view.map(V::Scalar::from_f64)

@@ -1,4 +1,4 @@
-//! From the image to the view plane: which u is at a column of pixels, and which v at a row.
+//! From the image to the view plane: the u of a column of pixels, and the v of a row.
 //!
 //! ```text
 //!     u = left + (right - left) x / width      v = top + (bottom - top) y / height

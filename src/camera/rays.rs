@@ -1,4 +1,4 @@
-//! The rays of an image, one after the other.
+//! The iterator over the rays of an image.
 
 use core::iter::FusedIterator;
 use core::ops::Range;
@@ -9,10 +9,10 @@ use super::Camera;
 use super::pixels::Axis;
 use crate::{Ray, Vector};
 
-/// The rays of an image, row by row: see [`Camera::rays`].
+/// An iterator over the rays of an image, row by row: see [`Camera::rays`].
 ///
-/// Its length is exact, except where `usize` cannot hold it, on targets of less than 64 bits: there `len` is
-/// `usize::MAX`. `nth`, `last` and `count` take no longer than `next`.
+/// The length is exact, unless it exceeds `usize` on a target of less than 64 bits: then `len` is `usize::MAX`. `nth`, `last` and
+/// `count` take constant time, so that `skip` gives each thread its own rows.
 #[derive(Clone, Debug)]
 #[must_use = "iterators are lazy and do nothing unless consumed"]
 pub struct Rays<V: Vector = glam::Vec3> {

@@ -1,16 +1,16 @@
-//! The part of the view plane that the image shows.
+//! The view rectangle.
 
 use crate::Scalar;
 
-/// The view rectangle: the part of the view plane that the image shows, in the lecture's terms l, r, b and t.
+/// A view rectangle: the part of the view plane that the image shows.
 ///
 #[doc = include_str!("../diagrams/view_rect.svg")]
 ///
-/// The four count in the units of the scene along the camera's u (to the right) and v (up), from the point of the view
-/// plane straight ahead of the eye. The rectangle need not be centered there, nor even contain that point: a
-/// rectangle beside it is how an architectural photograph is shifted, and how one image is rendered in tiles.
+/// The sides are given in the units of the scene, along the camera's U (to the right) and V (up), from the point of the view plane
+/// straight ahead of the eye. The rectangle need not be centered there, nor contain that point: an off-center rectangle is used
+/// for shifted views, as in architectural photographs, for stereo, and for rendering an image in tiles.
 ///
-/// Any value is allowed in the fields. A camera asks that `left < right` and `bottom < top`.
+/// Any value is allowed in the fields. The constructors of cameras return an error unless `left < right` and `bottom < top`.
 ///
 /// ```
 /// use eyeray::ViewRect;
@@ -40,29 +40,29 @@ use crate::Scalar;
 /// };
 /// let camera = Frame::look_to(Vec3::ZERO, Vec3::NEG_Z, Vec3::Y)?.perspective(view, 1.0)?;
 ///
-/// // The principal point is straight ahead, and a pixel of the matrix is half a pixel further here.
+/// // The principal point is straight ahead.
 /// let pixel = camera.project_to_pixel(Vec3::NEG_Z, width, height);
 /// assert!(pixel.is_some_and(|pixel| (pixel - vec2(cx + 0.5, cy + 0.5)).length() < 1e-3));
 /// # Ok(())
 /// # }
 /// ```
 ///
-/// There y is downwards and z forwards; here v is upwards and w backwards.
+/// In that convention, y is downwards and z forwards; here V is upwards and W backwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ViewRect<S = f32> {
-    /// The smallest u: the lecture's l.
+    /// The smallest u.
     pub left: S,
-    /// The largest u: the lecture's r.
+    /// The largest u.
     pub right: S,
-    /// The smallest v: the lecture's b.
+    /// The smallest v.
     pub bottom: S,
-    /// The largest v: the lecture's t.
+    /// The largest v.
     pub top: S,
 }
 
 impl<S: Scalar> ViewRect<S> {
-    /// Creates the rectangle of that width and height whose middle is straight ahead of the eye.
+    /// Creates a rectangle of the given width and height, centered on the point straight ahead of the eye.
     ///
     /// ```
     /// use eyeray::ViewRect;

@@ -1,7 +1,6 @@
-//! The comparisons of the crate approx, field by field: two values are close if each field of the one is to that of the other.
+//! The traits of the crate approx: two values are close if each of their fields is.
 //!
-//! Of a [`Hit`], these are its distance, its point and its normal: how far off the surface its spawned rays start is a bound
-//! on rounding errors, and no part of where the ray met it.
+//! For a [`Hit`], these are the distance, the point and the normal. The clearance is a bound on rounding errors, and is not compared.
 
 use approx::{AbsDiffEq, RelativeEq, UlpsEq};
 use glam::{DVec3, Vec3};

@@ -1,4 +1,4 @@
-//! [`Pod`] and [`Zeroable`] for [`Ray`] and [`Sphere`]: their bytes are their numbers, one after the other.
+//! [`Pod`] and [`Zeroable`] for [`Ray`] and [`Sphere`], whose bytes are their numbers, one after the other.
 #![allow(
     unsafe_code,
     reason = "the traits are unsafe, and cannot be derived for a `repr(C)` type that has a parameter"

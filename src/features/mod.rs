@@ -1,4 +1,4 @@
-//! What other crates' traits have to say about the types of this one, each behind a feature.
+//! Implementations of other crates' traits, each behind a feature.
 
 #[cfg(feature = "approx-05")]
 mod approx;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use crate::camera::Projection;
 use crate::{Camera, CameraArgument, CameraError, Frame, Scalar, Vector, ViewRect};
 
-/// A frame as it is written.
+/// The serialized form of a frame.
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "Frame")]
 struct WrittenFrame<V> {
@@ -18,7 +18,7 @@ struct WrittenFrame<V> {
     basis: [DVec3; 3],
 }
 
-/// A camera as it is written.
+/// The serialized form of a camera.
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "Camera")]
 struct WrittenCamera<V, S> {
@@ -36,7 +36,7 @@ enum WrittenProjection<S> {
     Perspective { distance: S },
 }
 
-/// A frame is written with the names of its accessors:
+/// Serializes a frame with the names of its accessors:
 ///
 /// ```json
 /// {
@@ -45,24 +45,23 @@ enum WrittenProjection<S> {
 /// }
 /// ```
 ///
-/// The basis is in `f64` in both precisions, as the frame keeps it: the direction of view and the up vector would not give back
-/// every bit of the basis that was once computed from them. It is read again bit for bit by a format that reads each `f64` as it
-/// was written, as [`Camera`] says.
+/// The basis is in `f64` in both precisions, as the frame keeps it. A format that reads each `f64` bit for bit gives the same frame
+/// back, as [`Camera`] says.
 impl<V: Vector + Serialize> Serialize for Frame<V> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         WrittenFrame { eye: self.eye(), basis: [self.u, self.v, self.w] }.serialize(serializer)
     }
 }
 
-/// What no function could have made is an error that says why, as [`CameraError`] does. The basis need not be exact: the
-/// coordinates of the three vectors may each be off by 2 ulp, as a fast reader of decimal numbers leaves them.
+/// Deserializes and validates a frame: the error for an invalid one says why, as [`CameraError`] does. The basis need not be exact:
+/// each coordinate may be off by 2 ulp, as left by a fast parser of decimal numbers.
 impl<'de, V: Vector + Deserialize<'de>> Deserialize<'de> for Frame<V> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         WrittenFrame::<V>::deserialize(deserializer)?.read().map_err(D::Error::custom)
     }
 }
 
-/// A camera is written with the names of its accessors:
+/// Serializes a camera with the names of its accessors:
 ///
 /// ```json
 /// {
@@ -73,15 +72,15 @@ impl<'de, V: Vector + Deserialize<'de>> Deserialize<'de> for Frame<V> {
 /// }
 /// ```
 ///
-/// An orthographic projection is just `"orthographic"`. The basis and the view are in `f64` in both precisions, as the camera
+/// An orthographic projection is `"orthographic"`. The basis and the view are in `f64` in both precisions, as the camera
 /// keeps them.
 ///
 /// # Bit for bit
 ///
-/// A camera is read again bit for bit by every format that reads each `f64` as it was written. Binary formats do, and most texts. Of
-/// `serde_json` it takes the feature `float_roundtrip`: without it, an `f64` may come back an ulp off, and then so do most cameras,
-/// also those of [`Vec3`](glam::Vec3), and anything else in `f64`. Such a camera is read all the same, and its rays are as good
-/// in `f32`; in `f64` they are another ulp or two from the exact ones.
+/// A format that reads each `f64` bit for bit gives the same camera back. Binary formats do, and most text formats. `serde_json` needs
+/// its feature `float_roundtrip`: without it, an `f64` may be read an ulp off, and so are most cameras, also those of
+/// [`Vec3`](glam::Vec3). Such a camera is still accepted. Its rays are as accurate in `f32`; in `f64` they are off by another ulp
+/// or two.
 impl<V: Vector + Serialize> Serialize for Camera<V>
 where
     V::Scalar: Serialize,
@@ -99,7 +98,7 @@ where
     }
 }
 
-/// What no constructor could have made is an error that says why, as with a [`Frame`].
+/// Deserializes and validates a camera: the error for an invalid one says why, as for a [`Frame`].
 impl<'de, V: Vector + Deserialize<'de>> Deserialize<'de> for Camera<V>
 where
     V::Scalar: Deserialize<'de>,
@@ -110,7 +109,7 @@ where
 }
 
 impl<V: Vector> WrittenFrame<V> {
-    /// The frame, if there is one like that.
+    /// The frame, if it is valid.
     fn read(self) -> Result<Frame<V>, ReadError> {
         let Self { eye, basis } = self;
         let eye = eye.to_f64();
@@ -125,7 +124,7 @@ impl<V: Vector> WrittenFrame<V> {
 }
 
 impl<V: Vector> WrittenCamera<V, V::Scalar> {
-    /// The camera, if its constructors could have made it.
+    /// The camera, if it is valid.
     fn read(self) -> Result<Camera<V>, ReadError> {
         let Self { eye, basis, view, projection } = self;
         let frame: Frame<DVec3> = WrittenFrame { eye, basis }.read()?.cast();
@@ -138,7 +137,7 @@ impl<V: Vector> WrittenCamera<V, V::Scalar> {
     }
 }
 
-/// Whether these are unit vectors at right angles to one another, u × v = w, up to how their coordinates are rounded and read.
+/// Whether these are orthonormal vectors with u × v = w, up to the rounding of their coordinates by a writer and a reader.
 fn is_basis([u, v, w]: [DVec3; 3]) -> bool {
     /// With h = 2⁻⁵³, each of the vectors is off by at most h from the rounding of its coordinates, and by 4 h where a reader of
     /// decimal numbers rounds four times (the digits, a power of ten, their quotient, the decimal itself): together 15 h. The
@@ -150,7 +149,7 @@ fn is_basis([u, v, w]: [DVec3; 3]) -> bool {
     equal(u.cross(v), w) && equal(v.cross(w), u) && equal(w.cross(u), v) && u != DVec3::ZERO
 }
 
-/// Why what was read is no camera.
+/// Why a frame or a camera is invalid.
 enum ReadError {
     Camera(CameraError),
     Basis,

@@ -1,4 +1,4 @@
-//! Many spheres, sorted once into a hierarchy of boxes.
+//! A collection of many spheres: a bounding volume hierarchy.
 
 mod boxes;
 mod build;
@@ -16,23 +16,23 @@ use super::Spheres;
 use super::lanes::Lanes;
 use crate::{Hit, Hittable, Ray, Sphere};
 
-/// Many spheres in `f32`, sorted once into a bounding volume hierarchy, of which a ray meets the nearest.
+/// A collection of many spheres in `f32`, which finds the nearest hit with a bounding volume hierarchy (BVH).
 ///
-/// It answers what [`nearest`](crate::nearest) answers for a slice of the same spheres, bit for bit: the same index, the lowest
-/// among equal distances, and the same hit. It skips spheres in groups whose boxes the ray does not enter, or enters beyond the
-/// nearest hit so far; what these tests may be off by is bounded, so that they never skip a sphere that is hit.
+/// It returns what [`nearest`](crate::nearest) returns for a slice of the same spheres, bit for bit: the same hit and the same index,
+/// the lowest among equal distances. It skips groups of spheres whose box the ray does not enter, or enters beyond the nearest hit
+/// so far. The error of these tests is bounded, so they never skip a sphere that is hit.
 ///
-/// Any spheres are allowed. Those that nothing can meet, with a NaN, an infinity or a negative radius, cost nothing. Up to 16
-/// that are much larger than how far apart the others lie, such as the ground that they stand on, are kept apart and tested by
-/// each ray. One with a coordinate or a radius beyond 2⁶⁰ is asked exactly by every ray. So are all spheres by a ray whose
-/// origin is farther than 2⁶⁰ from the world's, or whose direction is longer than that or shorter than 2⁻³⁰.
+/// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost nothing. Up to 16 that are
+/// large compared to the extent of the others, such as the ground, are kept apart and tested with each ray. A sphere with a coordinate or a
+/// radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin is farther than 2⁶⁰ from the
+/// world's, or whose direction is longer than that or shorter than 2⁻³⁰.
 ///
 /// # When to use it
 ///
-/// For more than some hundred spheres that stay as they are: they cannot be changed, only sorted again, which takes a
-/// million less than half a second. For few spheres it is a [`Spheres`], which can be changed one by one. It takes 26 bytes a
-/// sphere. (`cargo bench --manifest-path benches/peers/Cargo.toml --bench many_spheres` measures it beside other libraries, and
-/// `examples/many_spheres` shows it at work.)
+/// For more than some hundred spheres that stay as they are. They cannot be changed, only collected again, which takes less than half
+/// a second for a million. It takes 26 bytes a sphere. For few spheres it is a [`Spheres`], which can also be changed one by one.
+/// (In the repository, `cargo bench --manifest-path benches/peers/Cargo.toml --bench many_spheres` measures it beside other
+/// libraries.)
 ///
 /// # How
 ///
@@ -106,7 +106,7 @@ impl SphereBvh {
         self.len() == 0
     }
 
-    /// Returns the sphere at `index`, as it was given.
+    /// Returns the sphere at `index`, or `None` if `index` is out of bounds.
     pub fn get(&self, index: usize) -> Option<Sphere> {
         match &self.0 {
             Shape::Scan(spheres) => spheres.get(index),
@@ -114,13 +114,13 @@ impl SphereBvh {
         }
     }
 
-    /// Returns an iterator over the spheres by ascending index, as they were given.
+    /// Returns an iterator over the spheres, in the order in which they were collected.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Sphere> + DoubleEndedIterator + Clone + '_ {
         // There is a sphere at each of these indices.
         (0..self.len()).map(|index| self.get(index).unwrap_or_default())
     }
 
-    /// Returns which sphere the ray meets first with `t` in `range`, and where: of equal `t`, the lowest index.
+    /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the lowest index.
     #[inline]
     pub fn nearest(&self, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
         match &self.0 {
@@ -177,7 +177,7 @@ impl Hittable for SphereBvh {
         self.nearest(ray, range).map(|(_, hit)| hit)
     }
 
-    /// Stops at the first sphere found that blocks the ray.
+    /// Returns whether any sphere is hit, at the first one found.
     #[inline]
     fn occludes(&self, ray: &Ray, range: Range<f32>) -> bool {
         match &self.0 {
@@ -187,14 +187,14 @@ impl Hittable for SphereBvh {
     }
 }
 
-/// No spheres.
+/// Creates an empty collection.
 impl Default for SphereBvh {
     fn default() -> Self {
         Self(Shape::Scan(Spheres::new()))
     }
 }
 
-/// Prints the spheres as a list, in the order in which they were given.
+/// Formats the spheres as a list, in the order in which they were collected.
 impl fmt::Debug for SphereBvh {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.debug_list().entries(self.iter()).finish()

@@ -1,4 +1,4 @@
-//! Many spheres: each way to hold them has a cheap test in many lanes that never drops a sphere that is hit, and asks the exact
+//! Collections of spheres. Each has a cheap test over many lanes, which never drops a sphere that is hit, and calls the exact
 //! routine for the few that pass. [`scan`] tests all, [`hierarchy`] those in the boxes along the ray.
 
 mod filter;

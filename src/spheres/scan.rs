@@ -1,4 +1,5 @@
-//! Few or changing spheres, all of which a ray tests: a filter over many lanes, and the exact routine for the few that pass.
+//! A collection of few or changing spheres, which are all tested: by a filter over many lanes, and the few that pass by the exact
+//! routine.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -12,33 +13,28 @@ use crate::{Hit, Hittable, Ray, Sphere};
 /// How many blocks have a bit for each sphere in one word.
 const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 
-/// Many spheres in `f32`, of which a ray meets the nearest.
+/// A collection of few or changing spheres in `f32`, which finds the nearest hit by testing many spheres at a time.
 ///
-/// It answers what [`nearest`] answers for a slice of the same spheres, bit for bit: the same index, the lowest
-/// among equal distances, and the same hit. It is several times as fast: most spheres are dropped in single precision, many at
-/// a time, by a test whose error is bounded, so that it never drops a sphere that is hit; the others are asked exactly.
+/// It returns what [`nearest`] returns for a slice of the same spheres, bit for bit: the same hit and the same index, the lowest
+/// among equal distances. It takes less time, because most spheres are dropped in single precision, many at a time. The error of this
+/// test is bounded, so it never drops a sphere that is hit; the spheres that pass it are intersected exactly.
 ///
-/// Any spheres are allowed. Those that nothing can meet, with a NaN, an infinity or a negative radius, cost no more than
-/// others; one with a coordinate or a radius beyond 2⁶⁰ is asked exactly by every ray. So are all spheres by a ray whose
-/// origin is farther than 2⁶⁰ from the world's, or whose direction is longer than that or shorter than 2⁻³⁰.
+/// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost no more than others. A
+/// sphere with a coordinate or a radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin is
+/// farther than 2⁶⁰ from the world's, or whose direction is longer than that or shorter than 2⁻³⁰.
 ///
 /// # When to use it
 ///
-/// Wherever there are two spheres or more: it is faster than a loop over any formula. Spheres can be added, changed and removed
-/// one by one. The time that a ray takes is proportional to their number: for more than some hundred that stay as they are,
-/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. (`cargo bench --bench spheres` measures 1 to 65,536.)
+/// For two spheres or more, up to some hundred, or for any number that changes: spheres can be added, changed and removed one by one.
+/// The time of a query is proportional to their number. For more than some hundred that stay as they are,
+/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. (`cargo bench --bench spheres`, in the repository,
+/// measures 1 to 65,536.)
 ///
-/// # How fast it can be
+/// # Instructions
 ///
-/// Where there are many, the filter reads 16 bytes of each and computes 3 subtractions, 2 products and 6 fused multiply-adds
-/// before anything is decided. A core that starts two vectors of products in a cycle thus needs a quarter of a cycle a sphere
-/// with AVX-512, 16 lanes, and half a cycle with AVX2, 8 lanes. With SSE2, 4 lanes and nothing fused, these are 8 products and
-/// 9 sums, and a little over one cycle where two of each start at a time. A Zen 5 core takes 1.9, 1.1 and 1.2 times that for
-/// 65,536 spheres, 0.11, 0.13 and 0.29 ns each (`cargo bench --bench spheres` prints this for the machine at hand).
-///
-/// On x86-64 with the feature `std`, AVX-512 or else AVX2 and FMA are used where the machine has them; AVX-512 from Rust 1.89
-/// on. Otherwise it is what the crate is compiled for: SSE2, NEON on aarch64, and more with `-C target-cpu`. The answers are
-/// the same.
+/// On x86-64 with the feature `std`, AVX-512 (from Rust 1.89 on) or else AVX2 and FMA are used if the machine has them. Otherwise,
+/// the instructions are those that the crate is compiled for: SSE2 on x86-64, NEON on aarch64, and more with `-C target-cpu`. The
+/// results are the same.
 ///
 /// ```
 /// use eyeray::{Ray, Sphere, Spheres};
@@ -70,7 +66,7 @@ impl Spheres {
         Self { spheres: Vec::new(), blocks: Vec::new() }
     }
 
-    /// Creates an empty collection with room for `capacity` spheres.
+    /// Creates an empty collection with space for at least `capacity` spheres.
     #[must_use]
     pub fn with_capacity(capacity: usize) -> Self {
         Self {
@@ -79,14 +75,14 @@ impl Spheres {
         }
     }
 
-    /// Makes room for `additional` more spheres.
+    /// Reserves space for at least `additional` more spheres.
     pub fn reserve(&mut self, additional: usize) {
         self.spheres.reserve(additional);
         let blocks = self.len().saturating_add(additional).div_ceil(LANES);
         self.blocks.reserve(blocks.saturating_sub(self.blocks.len()));
     }
 
-    /// Adds a sphere at the end. Its index is the number of spheres before it.
+    /// Appends a sphere. Its index is the number of spheres before it.
     pub fn push(&mut self, sphere: Sphere) {
         let index = self.len();
         if index % LANES == 0 {
@@ -96,7 +92,9 @@ impl Spheres {
         self.update(index);
     }
 
-    /// Replaces the sphere at `index`, and returns the one that was there. `None`, and nothing changes, if there is none.
+    /// Replaces the sphere at `index`, and returns the previous one.
+    ///
+    /// Returns `None` and changes nothing if `index` is out of bounds.
     ///
     /// ```
     /// use eyeray::{Sphere, Spheres};
@@ -114,7 +112,9 @@ impl Spheres {
         Some(replaced)
     }
 
-    /// Removes the sphere at `index` and returns it; the last sphere takes its place. `None` if there is none.
+    /// Removes the sphere at `index` and returns it. The last sphere takes its place.
+    ///
+    /// Returns `None` if `index` is out of bounds.
     ///
     /// ```
     /// use eyeray::{Sphere, Spheres};
@@ -142,7 +142,7 @@ impl Spheres {
         Some(removed)
     }
 
-    /// Removes all spheres, and keeps the memory for as many.
+    /// Removes all spheres, and keeps the allocated memory.
     pub fn clear(&mut self) {
         self.spheres.clear();
         self.blocks.clear();
@@ -169,25 +169,25 @@ impl Spheres {
         self.spheres.is_empty()
     }
 
-    /// Returns the sphere at `index`, as it was given.
+    /// Returns the sphere at `index`, or `None` if `index` is out of bounds.
     #[inline]
     pub fn get(&self, index: usize) -> Option<Sphere> {
         self.spheres.get(index).copied()
     }
 
-    /// Returns all spheres by ascending index, as they were given.
+    /// Returns a slice of all spheres, by ascending index.
     #[inline]
     pub fn as_slice(&self) -> &[Sphere] {
         &self.spheres
     }
 
-    /// Returns an iterator over the spheres by ascending index, as they were given.
+    /// Returns an iterator over the spheres, by ascending index.
     #[inline]
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Sphere> + DoubleEndedIterator + Clone + '_ {
         self.into_iter()
     }
 
-    /// Returns which sphere the ray meets first with `t` in `range`, and where: of equal `t`, the lowest index.
+    /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the lowest index.
     #[inline]
     pub fn nearest(&self, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
         if self.len() <= FEW {
@@ -376,7 +376,7 @@ impl Hittable for Spheres {
         self.nearest(ray, range).map(|(_, hit)| hit)
     }
 
-    /// Stops at the first sphere found that blocks the ray.
+    /// Returns whether any sphere is hit, at the first one found.
     #[inline]
     fn occludes(&self, ray: &Ray, range: Range<f32>) -> bool {
         if self.len() <= FEW {
@@ -386,14 +386,14 @@ impl Hittable for Spheres {
     }
 }
 
-/// Prints the spheres as a list.
+/// Formats the spheres as a list.
 impl fmt::Debug for Spheres {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.spheres.fmt(formatter)
     }
 }
 
-/// Compares the spheres one by one, as slices do.
+/// Compares the spheres, as slices do.
 impl PartialEq for Spheres {
     fn eq(&self, other: &Self) -> bool {
         self.spheres == other.spheres

@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::{SphereBvh, Spheres};
 use crate::Sphere;
 
-/// Written as a list of spheres.
+/// Serializes the spheres as a list.
 impl Serialize for Spheres {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self)
@@ -20,7 +20,7 @@ impl<'de> Deserialize<'de> for Spheres {
     }
 }
 
-/// Written as a list of spheres, in the order in which they were given, and sorted again when it is read.
+/// Serializes the spheres as a list, in the order in which they were collected. Deserializing it builds the hierarchy again.
 impl Serialize for SphereBvh {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self.iter())

@@ -1,0 +1,70 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use lexopt::ValueExt;
+use lexopt::prelude::{Long, Short};
+
+pub(crate) const USAGE: &str = "usage: molecule [--pick X,Y] [--beside-textbook] [--distance RADII] [--zoom FACTOR] \
+[--width 1..16384] [--height 1..16384] [--output FILE.png]";
+
+/// What the command line asks for.
+pub(crate) enum Request {
+    Help,
+    Run(Arguments),
+}
+
+pub(crate) struct Arguments {
+    /// The pixel below which an atom is to be named, instead of a picture.
+    pub(crate) pick: Option<[f32; 2]>,
+    /// Whether to draw the same picture by the textbook's formula beside the other.
+    pub(crate) beside_textbook: bool,
+    /// How far the eye is from the middle of the molecule, in radii of a carbon atom.
+    pub(crate) distance: f32,
+    /// How many times the picture is enlarged.
+    pub(crate) zoom: f32,
+    pub(crate) width: u16,
+    pub(crate) height: u16,
+    pub(crate) output: PathBuf,
+}
+
+pub(crate) fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
+    let mut arguments = Arguments {
+        pick: None,
+        beside_textbook: false,
+        distance: 3_000.0,
+        zoom: 1.0,
+        width: 800,
+        height: 800,
+        output: PathBuf::from("molecule.png"),
+    };
+    while let Some(argument) = parser.next()? {
+        match argument {
+            Long("pick") => arguments.pick = Some(parser.value()?.parse_with(pixel)?),
+            Long("beside-textbook") => arguments.beside_textbook = true,
+            Long("distance") => arguments.distance = parser.value()?.parse()?,
+            Long("zoom") => arguments.zoom = parser.value()?.parse()?,
+            Long("width") => arguments.width = whole_number(&mut parser, 16_384)?,
+            Long("height") => arguments.height = whole_number(&mut parser, 16_384)?,
+            Long("output") => arguments.output = parser.value()?.into(),
+            Long("help") | Short('h') => return Ok(Request::Help),
+            _ => return Err(argument.unexpected()),
+        }
+    }
+    Ok(Request::Run(arguments))
+}
+
+/// Parses a pixel, "X,Y".
+fn pixel(text: &str) -> Result<[f32; 2], &'static str> {
+    let coordinates =
+        text.split_once(',').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
+    coordinates.ok_or("not two numbers with a comma between them")
+}
+
+/// Parses the next value, a whole number from 1 to `largest`.
+fn whole_number(parser: &mut lexopt::Parser, largest: u16) -> Result<u16, lexopt::Error> {
+    parser.value()?.parse_with(|text| match text.parse() {
+        Ok(number) if (1..=largest).contains(&number) => Ok(number),
+        _ => Err(format!("not a whole number from 1 to {largest}")),
+    })
+}
