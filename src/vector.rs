@@ -6,6 +6,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::arithmetic::rounding::RoundDown;
+use crate::rejection::Bounds;
 use crate::root::precision::Precision;
 
 /// A glam vector of three dimensions: [`Vec3`] or [`DVec3`].
@@ -64,6 +65,7 @@ pub trait Vector:
 /// A coordinate of a [`Vector`]: `f32` or `f64`. Sealed, as [`Vector`] is.
 pub trait Scalar:
     RoundDown
+    + Bounds
     + Copy
     + Debug
     + Display
