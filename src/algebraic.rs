@@ -46,6 +46,11 @@ impl<V: Vector> Hittable<V> for Algebraic<V> {
     fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         rejection::may_hit(&self.0, ray, range.end)
     }
+
+    #[inline(always)]
+    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32 {
+        V::may_hit_four(objects.each_ref().map(|Self(sphere)| sphere), ray, range.end)
+    }
 }
 
 /// The algebraic derivation.

@@ -42,6 +42,8 @@
 //! does an infinite radius. What overflows in o·o makes it +∞ or NaN. Only a finite result rejects. Where `end` is not above zero
 //! nothing is hit, and any answer will do. A negative radius passes as its magnitude would: the exact routine knows.
 
+use glam::{DVec3, Mat4, Vec3, Vec4};
+
 use crate::{Ray, Scalar, Sphere, Vector};
 
 /// The constants of the derivation above in a precision.
@@ -72,35 +74,78 @@ impl Bounds for f64 {
     const NAN: Self = f64::NAN;
 }
 
+/// The rejection of four spheres at a time.
+pub trait Rejection: Sized {
+    /// Which of the spheres the ray may hit before `end`: the bit `1 << i` is that of `spheres[i]`.
+    fn may_hit_four(spheres: [&Sphere<Self>; 4], ray: &Ray<Self>, end: Self::Scalar) -> u32
+    where
+        Self: Vector;
+}
+
+impl Rejection for Vec3 {
+    #[inline(always)]
+    fn may_hit_four(spheres: [&Sphere; 4], ray: &Ray, end: f32) -> u32 {
+        let columns = spheres.map(|sphere| sphere.center.extend(sphere.radius));
+        let [x, y, z, w] = columns;
+        let rows = Mat4::from_cols(x, y, z, w).transpose();
+        let Ray { origin, direction } = *ray;
+        let [a, one_over_a] = squares(ray, f32::MARGIN);
+        let x = rows.x_axis - origin.x;
+        let y = rows.y_axis - origin.y;
+        let z = rows.z_axis - origin.z;
+        let power = x * x + y * y + z * z - rows.w_axis * rows.w_axis * (1.0 + f32::MARGIN);
+        let h = x * direction.x + y * direction.y + z * direction.z;
+        let is_clear = |clearance: Vec4| {
+            (clearance.cmpgt(Vec4::splat(f32::LEAST)) & clearance.cmplt(Vec4::INFINITY)).bitmask()
+        };
+        // Beside the line are most.
+        let clear = is_clear(power - h * one_over_a * h);
+        if clear == 0b1111 {
+            return 0;
+        }
+        let s = h.max(Vec4::ZERO).min(Vec4::splat(a * end));
+        let clear = clear | is_clear(power - s * one_over_a * ((h - s) + h));
+        clear ^ 0b1111
+    }
+}
+
+impl Rejection for DVec3 {
+    #[inline(always)]
+    fn may_hit_four(spheres: [&Sphere<Self>; 4], ray: &Ray<Self>, end: f64) -> u32 {
+        let mut near = 0;
+        for (place, sphere) in spheres.into_iter().enumerate() {
+            near |= u32::from(may_hit(sphere, ray, end)) << place;
+        }
+        near
+    }
+}
+
 /// Whether the ray may hit the sphere before `end`.
 // Inlined always: so that a loop computes once what is the ray's.
 #[inline(always)]
 pub(crate) fn may_hit<V: Vector>(sphere: &Sphere<V>, ray: &Ray<V>, end: V::Scalar) -> bool {
-    let clearance = clearance(sphere, ray, end, V::Scalar::MARGIN);
-    !(clearance > V::Scalar::LEAST && clearance < V::Scalar::INFINITY)
-}
-
-/// |m d - o|² - r², the less the larger `margin`.
-#[inline(always)]
-fn clearance<V: Vector>(
-    sphere: &Sphere<V>,
-    ray: &Ray<V>,
-    end: V::Scalar,
-    margin: V::Scalar,
-) -> V::Scalar {
-    let (zero, one) = (V::Scalar::ZERO, V::Scalar::ONE);
-    let Ray { origin, direction } = *ray;
-    let a = direction.dot(direction);
-    let [least, largest] = V::Scalar::SQUARES;
-    let is_usual = a >= least && a <= largest;
-    let one_over_a = if is_usual { (one + margin + margin) / a } else { V::Scalar::NAN };
-
-    let o = sphere.center - origin;
-    let h = direction.dot(o);
-    let power = o.dot(o) - sphere.radius * sphere.radius * (one + margin);
+    let (zero, margin) = (V::Scalar::ZERO, V::Scalar::MARGIN);
+    let is_clear = |clearance| clearance > V::Scalar::LEAST && clearance < V::Scalar::INFINITY;
+    let [a, one_over_a] = squares(ray, margin);
+    let o = sphere.center - ray.origin;
+    let h = ray.direction.dot(o);
+    let power = o.dot(o) - sphere.radius * sphere.radius * (V::Scalar::ONE + margin);
+    // Beside the line are most.
+    if is_clear(power - h * one_over_a * h) {
+        return false;
+    }
     let longest = a * end;
     // Comparisons that are one instruction each: `f32::clamp` looks for NaN.
     let s = if h > zero { h } else { zero };
     let s = if s < longest { s } else { longest };
-    power - s * one_over_a * ((h - s) + h)
+    !is_clear(power - s * one_over_a * ((h - s) + h))
+}
+
+/// a, and 1 / a made larger.
+#[inline(always)]
+fn squares<V: Vector>(ray: &Ray<V>, margin: V::Scalar) -> [V::Scalar; 2] {
+    let a = ray.direction.dot(ray.direction);
+    let [least, largest] = V::Scalar::SQUARES;
+    let is_usual = a >= least && a <= largest;
+    [a, if is_usual { (V::Scalar::ONE + margin + margin) / a } else { V::Scalar::NAN }]
 }

@@ -147,4 +147,9 @@ impl<V: Vector> Hittable<V> for Sphere<V> {
     fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         rejection::may_hit(self, ray, range.end)
     }
+
+    #[inline(always)]
+    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32 {
+        V::may_hit_four(objects.each_ref(), ray, range.end)
+    }
 }
