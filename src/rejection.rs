@@ -114,7 +114,13 @@ impl Rejection for DVec3 {
     fn may_hit_four(spheres: [&Sphere<Self>; 4], ray: &Ray<Self>, end: f64) -> u32 {
         let mut near = 0;
         for (place, sphere) in spheres.into_iter().enumerate() {
-            near |= u32::from(may_hit(sphere, ray, end)) << place;
+            near |= u32::from(!is_clear_of_line(sphere, ray)) << place;
+        }
+        if near == 0 {
+            return 0;
+        }
+        for (place, sphere) in spheres.into_iter().enumerate() {
+            near &= !(u32::from(!may_hit(sphere, ray, end)) << place);
         }
         near
     }
@@ -139,6 +145,16 @@ pub(crate) fn may_hit<V: Vector>(sphere: &Sphere<V>, ray: &Ray<V>, end: V::Scala
     let s = if h > zero { h } else { zero };
     let s = if s < longest { s } else { longest };
     !is_clear(power - s * one_over_a * ((h - s) + h))
+}
+
+#[inline(always)]
+fn is_clear_of_line(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> bool {
+    let [_, one_over_a] = squares(ray, f64::MARGIN);
+    let o = sphere.center - ray.origin;
+    let h = ray.direction.dot(o);
+    let power = o.dot(o) - sphere.radius * sphere.radius * (1.0 + f64::MARGIN);
+    let c = power - h * one_over_a * h;
+    (c > f64::LEAST) & (c < f64::INFINITY)
 }
 
 /// a, and 1 / a made larger.
