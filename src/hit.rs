@@ -27,21 +27,21 @@ use crate::{Ray, Vector};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hit<V: Vector = glam::Vec3> {
-    /// The distance along the ray, in lengths of its direction.
+    /// How far along the ray, in lengths of its direction.
     pub t: V::Scalar,
     /// The point of the surface.
     pub point: V,
     /// The outward unit normal there, whichever side the ray comes from.
     pub normal: V,
-    /// How far along the normal a spawned ray starts from `point`.
+    /// See [`Hit::clearance`].
     pub(crate) clearance: V::Scalar,
 }
 
 impl<V: Vector> Hit<V> {
-    /// A hit on a surface of your own.
+    /// Creates a hit on a surface of your own.
     ///
-    /// `clearance` is how far along the normal, to one side or the other, the rays of [`spawn`](Self::spawn) start: more
-    /// than `point` is off, so that they start on the side that they leave to.
+    /// `clearance` is the distance along the normal at which the rays of [`spawn`](Self::spawn) start. It must be larger than the
+    /// error of `point`, so that they start on the side that they leave to.
     ///
     /// ```
     /// use core::ops::Range;
@@ -73,30 +73,72 @@ impl<V: Vector> Hit<V> {
         Self { t, point, normal, clearance }
     }
 
-    /// Whether `ray` meets the surface from outside, against the normal.
+    /// Returns whether `ray` hits the surface from outside, against the normal.
     #[inline]
+    #[must_use]
     pub fn front_face(&self, ray: &Ray<V>) -> bool {
         self.outwards(ray.direction) < 0.0
     }
 
-    /// A ray that leaves the surface here along `direction`: outwards where that points to the side of the normal or along
-    /// the surface, inwards otherwise.
+    /// Returns whether `direction` points to the outside of the surface here: the side that [`spawn`](Self::spawn) takes.
     ///
-    /// A ray that leaves a [`Sphere`](crate::Sphere) outwards never meets it again, and one that goes inwards meets its far
-    /// wall, if the radius is at least 1,000 ulp of the sphere's coordinates: the ray starts a little off the surface on the
-    /// side that it leaves to, by a distance taken from the bounds on all rounding errors. So every range can begin at 0.
+    /// A direction along the surface counts as outward. The sign of the dot product with the normal is computed in `f64`, where it
+    /// is not lost to rounding or underflow; use this instead of `direction.dot(hit.normal) > 0.0` to tell reflection from
+    /// refraction, or which medium a ray enters.
+    ///
+    /// ```
+    /// use eyeray::{Hittable, Ray, Sphere};
+    /// use glam::Vec3;
+    ///
+    /// let ray = Ray::new(Vec3::Z * 3.0, Vec3::NEG_Z);
+    /// if let Some(hit) = Sphere::new(Vec3::ZERO, 1.0).intersect(&ray, 0.0..f32::INFINITY) {
+    ///     assert!(hit.is_outward(ray.direction.reflect(hit.normal)));
+    ///     assert!(!hit.is_outward(ray.direction));
+    /// }
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn is_outward(&self, direction: V) -> bool {
+        self.outwards(direction) >= 0.0
+    }
+
+    /// Returns the distance along the normal at which a ray of [`spawn`](Self::spawn) starts.
+    #[inline]
+    #[must_use]
+    pub fn clearance(&self) -> V::Scalar {
+        self.clearance
+    }
+
+    /// Creates a ray that leaves the surface here along `direction`: a reflected, refracted or shadow ray.
+    ///
+    /// The ray starts at a distance of [`clearance`](Self::clearance) from [`point`](Self::point), outside if the direction
+    /// [is outward](Self::is_outward), else inside. So it does not hit the surface that it leaves by a rounding error
+    /// (self-intersection, shadow acne), and its range can begin at 0, with no epsilon to tune.
+    ///
+    /// # Clearance
+    ///
+    /// On a [`Sphere`](crate::Sphere), a ray that leaves outwards starts strictly outside and never hits that sphere again, and one
+    /// that goes inwards starts strictly inside and hits its far wall, if the radius is at least 1,000 ulp of the coordinates of the
+    /// point. The clearance follows from the bounds on all rounding errors. It is at most 32 times the sum of an ulp of the largest
+    /// coordinate of the point and the smaller of 2⁻³² of the distance travelled and 2⁻²⁴ of the radius, and 2⁻⁴⁷ of the radius more
+    /// (with [`DVec3`](glam::DVec3) 2⁻⁶², 2⁻⁵³ and 2⁻¹⁰²). So on a ground of radius 1,000 or on a planet it is as fine as the
+    /// point's own coordinates are. What is closer to the surface than that can be skipped: a ball that touches a ground at
+    /// (100, 0, 0) is skipped by rays that leave the ground within some 10⁻⁴ of the contact.
+    ///
+    /// None of this holds where `t` leaves the range of the floats: a radius of 1e-40 hit along a direction of length 1e15 has a
+    /// `t` that is rounded to a few bits or to 0, and a radius of 1e37 along a direction of length 1e-20 has none.
     ///
     /// Source: C. Wächter and N. Binder, *A Fast and Robust Method for Avoiding Self-Intersection*, Ray Tracing Gems,
     /// chapter 6, for the idea of an offset along the normal that follows from the errors instead of from the scene.
     #[inline]
     #[must_use]
+    #[doc(alias("self_intersection", "offset_ray_origin", "spawn_ray"))]
     pub fn spawn(&self, direction: V) -> Ray<V> {
-        let clearance =
-            if self.outwards(direction) < 0.0 { -self.clearance } else { self.clearance };
+        let clearance = if self.is_outward(direction) { self.clearance } else { -self.clearance };
         Ray::new(self.point + self.normal * clearance, direction)
     }
 
-    /// Has the sign of `direction`·normal.
+    /// Returns a number with the sign of `direction`·normal.
     #[inline]
     fn outwards(&self, direction: V) -> f64 {
         // So that even products of subnormal numbers do not vanish, nor those of the largest overflow.

@@ -21,8 +21,9 @@ use crate::{Hit, Ray, Vector};
 /// let scene: &dyn Hittable = &[far, near];
 /// assert_eq!(scene.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(2.0));
 ///
-/// // A shadow ray asks only whether anything is in the way, here of a lamp at t = 1.
+/// // A shadow ray asks only whether anything is in the way: here nothing up to t = 1, and something up to t = 3.
 /// assert!(!scene.occludes(&ray, 0.0..1.0));
+/// assert!(scene.occludes(&ray, 0.0..3.0));
 /// ```
 ///
 /// # What an implementation owes
@@ -38,10 +39,60 @@ use crate::{Hit, Ray, Vector};
 /// [`Hit::new`] has an example.
 pub trait Hittable<V: Vector = glam::Vec3> {
     /// Returns the nearest hit whose `t`, as it is returned, is above 0 and in `range`; `None` if there is none.
+    ///
+    /// To find where the ray leaves a sphere after `hit`, begin the range just above its `t`: at `hit.t.next_up()` or, before Rust
+    /// 1.86, at `f32::from_bits(hit.t.to_bits() + 1)`.
+    ///
+    /// ```
+    /// use eyeray::{Hittable, Ray, Sphere};
+    /// use glam::Vec3;
+    ///
+    /// let sphere = Sphere::new(Vec3::ZERO, 1.0);
+    /// let ray = Ray::new(Vec3::Z * 3.0, Vec3::NEG_Z);
+    /// let entry = sphere.intersect(&ray, 0.0..f32::INFINITY);
+    /// let exit = entry.and_then(|entry| {
+    ///     let just_after = f32::from_bits(entry.t.to_bits() + 1);
+    ///     sphere.intersect(&ray, just_after..f32::INFINITY)
+    /// });
+    /// assert_eq!(exit.map(|exit| exit.t), Some(4.0));
+    ///
+    /// // A ray starts inside a sphere if and only if its roots lie on either side of 0.
+    /// let is_inside = |[near, far]: [f32; 2]| near < 0.0 && 0.0 < far;
+    /// assert_eq!(sphere.roots_algebraic(&ray).map(is_inside), Some(false));
+    /// ```
     #[doc(alias("raycast", "ray_cast", "cast_ray", "trace", "hit"))]
     fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>>;
 
     /// Returns whether anything is hit with `t` in `range`: what a shadow ray asks.
+    ///
+    /// For a point light that is not in the scene, the direction to it has its end at t = 1, and the range is `0.0..1.0`: what is
+    /// behind the light does not count.
+    ///
+    /// A lamp that is itself in the scene must not be in its own way. Where a shadow ray hits it is not at t = 1, because the ray
+    /// starts a little off the surface. So the range ends where the ray hits the lamp; being half open, it leaves the lamp out:
+    ///
+    /// ```
+    /// use eyeray::{Hittable, Ray, Sphere};
+    /// use glam::{Vec3, vec3};
+    ///
+    /// let ground = Sphere::new(vec3(0.0, -1000.0, 0.0), 1000.0);
+    /// let lamp = Sphere::new(vec3(0.0, 4.0, 0.0), 1.0);
+    /// let scene = [ground, lamp];
+    ///
+    /// /// Whether light from there reaches the shadow ray's origin.
+    /// fn is_lit(shadow: &Ray, lamp: &Sphere, scene: &[Sphere]) -> bool {
+    ///     let at_lamp = lamp.intersect(shadow, 0.0..f32::INFINITY);
+    ///     at_lamp.is_some_and(|at_lamp| !scene.occludes(shadow, 0.0..at_lamp.t))
+    /// }
+    ///
+    /// let eye = vec3(0.0, 5.0, 9.0);
+    /// let ray = Ray::new(eye, vec3(1.0, 0.0, 0.0) - eye);
+    /// if let Some(hit) = ground.intersect(&ray, 0.0..f32::INFINITY) {
+    ///     // A point of the lamp, chosen at random.
+    ///     let sample = vec3(0.0, 3.0, 0.0);
+    ///     assert!(is_lit(&hit.spawn(sample - hit.point), &lamp, &scene));
+    /// }
+    /// ```
     #[inline]
     #[doc(alias("occluded", "shadow_ray", "any_hit", "line_of_sight"))]
     fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {

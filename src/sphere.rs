@@ -10,7 +10,9 @@ use crate::arithmetic::rounding::RoundDown;
 use crate::geometric::ClosestApproach;
 use crate::{Hit, Hittable, Ray, Vector, rejection};
 
-/// A sphere, whose hits are decided exactly and whose roots are correctly rounded.
+/// A sphere: a center and a radius.
+///
+/// Whether a ray hits it is decided exactly, and the distance is correctly rounded.
 ///
 /// ```
 /// use eyeray::{Hittable, Ray, Sphere};
@@ -27,52 +29,53 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 ///
 /// # What is promised
 ///
-/// For all finite values of a ray's and a sphere's fields, with t for the exact real root of those values as they are:
+/// For all finite values of a ray's and a sphere's fields, in `f32` and in `f64`, with t for the exact real root of those values
+/// as they are:
 ///
-/// 1. Hit or miss is never wrong.
-/// 2. With [`Vec3`](glam::Vec3), each root is t rounded to the nearest `f32`, ties to even: beyond the largest it is infinite,
-///    and below the smallest normal one it is rounded to a subnormal number likewise. So [`Algebraic`](crate::Algebraic) and
-///    [`Geometric`](crate::Geometric) give the same roots, bit for bit, on every machine, with fused multiply-add or without.
-///    With [`DVec3`](glam::DVec3), each root is within 1 ulp of t.
-/// 3. A line that touches the sphere hits it, with two equal roots. A sphere of radius 0 is hit exactly if the line goes
+/// 1. Hit or miss is never wrong, and each root is t rounded to the nearest number of the format, ties to even: beyond the largest
+///    it is infinite, and below the smallest normal one it is rounded to a subnormal number likewise. So
+///    [`Algebraic`](crate::Algebraic) and [`Geometric`](crate::Geometric) give the same roots, bit for bit, on every machine, with
+///    fused multiply-add or without.
+/// 2. A line that touches the sphere hits it, with two equal roots. A sphere of radius 0 is hit if and only if the line goes
 ///    through its center.
-/// 4. A NaN or an infinity in the ray or the sphere, a zero direction or a negative radius gives `None`. Nothing panics, and
+/// 3. A NaN or an infinity in the ray or the sphere, a zero direction or a negative radius gives `None`. Nothing panics, and
 ///    no result is NaN.
-/// 5. The direction need not be unit, and t counts in its lengths: of 2ᵏ times the direction, t is 2⁻ᵏ times as large,
+/// 4. The direction need not be unit, and t counts in its lengths: of 2ᵏ times the direction, t is 2⁻ᵏ times as large,
 ///    exactly.
-/// 6. A ray is a half line: what is hit is the smallest root that, as returned, is finite, above 0 and in the range.
-/// 7. [`Hit::point`] is within 1.5 ulp (4 with `DVec3`) of where the exact line meets the sphere, coordinate by coordinate,
-///    an ulp being that of the larger of the coordinate and |center| + radius. [`Hit::normal`] is within 2 ulp of 1 of the
-///    outward unit normal there. At radius 0, where there is none, it points back along the ray.
-/// 8. A ray of [`Hit::spawn`] never meets the surface that it leaves, if the radius is at least 1,000 ulp of the sphere's
-///    coordinates.
+/// 5. A ray is a half line: a hit is at the smallest root that, as returned, is finite, above 0 and in the range.
+/// 6. Each coordinate of [`Hit::point`] is off by at most 0.51 ulp of itself (1 ulp where it is subnormal) and the smaller of 2⁻³⁰
+///    of the distance travelled, t times the direction's length, and 2⁻²⁴ of the radius (with [`DVec3`](glam::DVec3) 2⁻⁶⁰ and
+///    2⁻⁵³). [`Hit::normal`] is within 2 ulp of 1 of the outward unit normal there. At radius 0, where there is none, it points
+///    back along the ray.
+/// 7. A ray of [`Hit::spawn`] never hits the surface that it leaves, if the radius is at least 1,000 ulp of the coordinates of the
+///    point. It starts no farther from it than stated at [`spawn`](Hit::spawn).
 ///
 /// # How
 ///
-/// Each derivation, [`Algebraic`](crate::Algebraic) and [`Geometric`](crate::Geometric), is carried out in `f64`, with a bound
-/// on its error. Where that decides the hit, and both ends of the interval around the root round to the same `f32` (Ziv's
-/// test), that is the answer. What is left is tried again by the geometric derivation: in `f64` with the error of the very
-/// case, then in pairs of `f64`, and where pairs cannot tell either, in integers, exactly.
+/// `intersect` uses the quadratic formula, as [`Algebraic`](crate::Algebraic) does, in `f64` and with a bound on its error. Where
+/// that decides the hit, and both ends of the interval around the root round to the same number (Ziv's test), that is the answer.
+/// Otherwise more exact arithmetic takes over, step by step: `f64` with the error of the very case, then pairs of `f64`, and
+/// where pairs cannot tell either, integers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C)]
 pub struct Sphere<V: Vector = glam::Vec3> {
     /// The center.
     pub center: V,
-    /// The radius. A sphere of radius 0 is a point; a negative radius is no sphere, and nothing meets it.
+    /// The radius. A sphere of radius 0 is a point. No ray hits a sphere with a negative radius.
     pub radius: V::Scalar,
 }
 
 impl<V: Vector> Sphere<V> {
-    /// The sphere of that center and radius. Any value is allowed.
+    /// Creates a sphere. Any value is allowed.
     #[inline]
     pub const fn new(center: V, radius: V::Scalar) -> Self {
         Self { center, radius }
     }
 
-    /// The lowest and the highest corner of the smallest box that holds the sphere, each coordinate rounded outwards.
+    /// Returns the axis-aligned bounding box: its lowest and its highest corner, each coordinate rounded outwards.
     ///
-    /// What nothing can meet, with a negative radius, a NaN or an infinity, has an empty box: from +∞ to -∞.
+    /// The box of a sphere with a negative radius, a NaN or an infinity, which no ray hits, is empty: from +∞ to -∞.
     ///
     /// ```
     /// use eyeray::Sphere;
@@ -102,7 +105,7 @@ impl<V: Vector> Sphere<V> {
         (round_down(center), -round_down(-center))
     }
 
-    /// Both roots along the whole line, ascending, behind the origin too, by the algebraic derivation: see
+    /// Returns both roots along the whole line, ascending, behind the origin too, by the quadratic formula: see
     /// [`Algebraic`](crate::Algebraic). `None` where the line misses.
     ///
     /// ```
@@ -118,7 +121,7 @@ impl<V: Vector> Sphere<V> {
         V::roots::<Quadratic>(self, ray)
     }
 
-    /// Both roots along the whole line, ascending, behind the origin too, by the geometric derivation: see
+    /// Returns both roots along the whole line, ascending, behind the origin too, by the closest approach: see
     /// [`Geometric`](crate::Geometric). `None` where the line misses.
     ///
     /// ```

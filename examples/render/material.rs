@@ -56,7 +56,7 @@ impl Material {
             }
         };
         // What the fuzz, or a rounding, sends into an opaque surface is lost there.
-        (direction.dot(hit.normal) > 0.0).then_some(Scatter { direction, weight, diffuse })
+        hit.is_outward(direction).then_some(Scatter { direction, weight, diffuse })
     }
 }
 

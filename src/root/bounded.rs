@@ -156,10 +156,10 @@ impl Crossings for Bounded {
     fn root(&self, side: Side) -> Option<Root> {
         let (t, relative_error) = self.estimate(side)?;
         let estimate = if self.format == Format::F32 {
-            Estimate { t: t.into(), relative_error }
+            Estimate { t: t.into(), relative_error, exponent: 0 }
         } else {
             let (corrected, relative_error) = self.corrected(t, relative_error);
-            Estimate { t: corrected.t, relative_error }
+            Estimate { t: corrected.t, relative_error, exponent: 0 }
         };
         let t = self.format.round(estimate.t, estimate.relative_error, |midpoint| {
             let line = self.line;
@@ -171,7 +171,8 @@ impl Crossings for Bounded {
     #[inline(always)]
     fn hit(&self, side: Side, root: Root) -> Option<Found> {
         let Line { origin, direction, center, radius } = self.line;
-        let Root { t, estimate: Estimate { t: Pair { hi: unrounded, .. }, relative_error } } = root;
+        let Root { t, estimate: Estimate { t: Pair { hi: unrounded, .. }, relative_error, .. } } =
+            root;
         let length = sqrt(self.chord.a);
         let travelled = unrounded.abs() * length;
         let tolerance = self.format.point_tolerance();

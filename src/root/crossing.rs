@@ -88,15 +88,18 @@ pub(crate) struct Found {
 pub(crate) struct Root {
     /// Correctly rounded.
     pub(crate) t: f64,
-    /// Not rounded, in the step's own units.
+    /// Not rounded.
     pub(crate) estimate: Estimate,
 }
 
 /// A root, with its relative error.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Estimate {
+    /// In the units of the step.
     pub(crate) t: Pair,
     pub(crate) relative_error: f64,
+    /// That of the power of two which takes `t` to lengths of the step's direction, in the caller's units.
+    pub(crate) exponent: i32,
 }
 
 /// The two crossings, as a step knows them.

@@ -189,20 +189,23 @@ fn hit(line: Line, found: Found) -> Hit {
 /// With x the largest coordinate of the point, an ulp of x is at most 2⁻²³ x. The rounding of the point is half an ulp a
 /// coordinate, that of the spawned origin as much, or one where it passes a power of two: together at most 1.51 √3 < 2.7 ulp of
 /// distance, and there are 4. All else that the point is off is at most the smaller of 2⁻³¹ of the distance travelled and 2⁻²⁵ of
-/// the radius, where there are 2⁻²⁹ of the largest coordinate of that way, which is at least 1/√3 of it, and 2⁻²⁴. Where an ulp is
-/// no smaller than the smallest numbers, there are 4 of these.
+/// the radius; there are 2⁻²⁹ of the largest coordinate of the way travelled, which is at least 1/√3 of it, and 2⁻²⁴. A direction
+/// that is outward by the rounded normal is inward in truth by no more than that is off, e < √3 2⁻²⁵, and passes the surface from
+/// e² r / 2 above it; there are 2⁻⁴⁸ r. Where an ulp is no smaller than the smallest numbers, there are 4 of these.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "there is room for rounding")]
 fn clearance(point: Vec3, t: f32, line: Line) -> f32 {
     const FOUR_ULPS: f32 = 4.0 * f32::EPSILON;
     const OF_DISTANCE: f32 = f32::EPSILON / 64.0;
     const OF_RADIUS: f32 = f32::EPSILON / 2.0;
+    const OF_CURVATURE: f32 = f32::EPSILON * f32::EPSILON / 4.0;
     const FOUR_LEAST: f32 = f32::from_bits(4);
     // Not `f32::max`, which takes care of NaN: here there is none.
     let larger = |a: f32, b: f32| if a > b { a } else { b };
     let smaller = |a: f32, b: f32| if a < b { a } else { b };
     let largest = |v: Vec3| larger(larger(v.x.abs(), v.y.abs()), v.z.abs());
-    let _ = (point, FOUR_ULPS, FOUR_LEAST);
     let travelled = t * largest(line.direction.as_vec3());
-    smaller(travelled * OF_DISTANCE, line.radius as f32 * OF_RADIUS)
+    let radius = line.radius as f32;
+    let off = smaller(travelled * OF_DISTANCE, radius * OF_RADIUS) + radius * OF_CURVATURE;
+    largest(point) * FOUR_ULPS + (off + FOUR_LEAST)
 }

@@ -161,9 +161,11 @@ impl Crossings for InIntegers<'_> {
         } else {
             self.format.round_at_the_ends(exact.to_f64(), compare)
         };
-        // In units of the radius and of the direction's length, as the hit wants it.
-        let unit = direction_exponent(self.line) - exponent(self.line.radius);
-        let estimate = Estimate { t: exact.scaled(unit), relative_error: ROOT_ERROR };
+        let estimate = Estimate {
+            t: exact.scaled(-exact.exponent()),
+            relative_error: ROOT_ERROR,
+            exponent: exact.exponent() + direction_exponent(self.line),
+        };
         Some(Root { t, estimate })
     }
 

@@ -201,10 +201,11 @@ impl InPairs<'_> {
         };
         let error =
             H_ERROR * self.reach + self.half_chord_error + SUM_ERROR * (h.hi.abs() + half_chord.hi);
+        let exponent = self.scaled.length_exponent;
         // The errors of quotients are doubled for their terms of second order.
         if sum.hi.abs() > 0.5 * h.hi.abs() {
             let relative_error = 2.0 * (error / sum.hi.abs()) + ROOT_QUOTIENT_ERROR;
-            return Some(Estimate { t: sum / a, relative_error });
+            return Some(Estimate { t: sum / a, relative_error, exponent });
         }
         // That sum cancels; the product of the roots is power / a.
         let (power, power_error) = power(self.scaled.o, self.scaled.radius);
@@ -213,6 +214,7 @@ impl InPairs<'_> {
             t: power / other,
             relative_error: 2.0 * (error / other.hi.abs() + power_relative_error)
                 + ROOT_QUOTIENT_ERROR,
+            exponent,
         })
     }
 }
@@ -259,13 +261,15 @@ impl Crossing {
         let Root { t, estimate } = root;
         let Self { d, radius, length_exponent, .. } = *self;
         let length = sqrt(self.a.hi);
-        let travelled = estimate.t.hi.abs() * length;
-        let is_close = travelled <= radius;
+        let travelled = scale(estimate.t.hi.abs() * length, estimate.exponent);
+        let is_close = travelled <= line.radius;
         let tolerance = format.point_tolerance();
         let allowed = if is_close {
             tolerance.of_radius * radius
         } else {
-            (tolerance.of_radius * radius).min(tolerance.of_distance * travelled)
+            // In scaled units, as the radius.
+            (tolerance.of_radius * radius)
+                .min(tolerance.of_distance * scale(travelled, -length_exponent))
         };
         let is_certain = self.offset_error <= 0.5 * allowed * length
             && (!is_close || estimate.relative_error < 0.5 * tolerance.of_distance);
@@ -281,15 +285,15 @@ impl Crossing {
         };
         let foot = moment(self.moment, d);
         let offset = foot.zip(d, |foot, d| (foot + times(along, d)) / self.a);
-        let (start, step) = if is_close {
-            (line.origin, d.map(|d| times(estimate.t, d)))
+        let (start, exponent, step) = if is_close {
+            (line.origin, estimate.exponent, d.map(|d| times(estimate.t, d)))
         } else {
-            (line.center, offset)
+            (line.center, length_exponent, offset)
         };
         let point = Triple::from(start).zip(step, |start, step| {
-            let sum = two_sum(start, scale(step.hi, length_exponent));
+            let sum = two_sum(start, scale(step.hi, exponent));
             // Not where it overflows.
-            let low = sum.lo + scale(step.lo, length_exponent);
+            let low = sum.lo + scale(step.lo, exponent);
             if sum.hi.is_finite() { sum.hi + low } else { sum.hi }
         });
         let normal = offset.map(|offset| without_dust(offset.hi / radius));

@@ -104,6 +104,7 @@ pub(super) fn small_root(
     Estimate {
         t: fast_two_sum(t, correction),
         relative_error: power_error / power.hi.abs() + ROOT_ERROR,
+        exponent: 0,
     }
 }
 

@@ -121,16 +121,32 @@ impl<V: Coordinates> Truth<V> {
         [0, 1, 2].map(|i| &(&self.direction[i] * t) - &self.to_center[i])
     }
 
-    /// The largest error of a coordinate of a point that was computed for a root, in ulps of the largest coordinate
-    /// along that axis of any point of the sphere: of |center| + radius.
+    /// How far the ray has travelled at a root.
+    pub fn travelled(&self, root: usize) -> Dyadic {
+        let length = dot(&self.direction, &self.direction).square_root(BITS);
+        &self.roots[root].cut_off.clone().abs() * &length
+    }
+
+    /// The largest error of a coordinate of a point that was computed for a root, as a part of what is promised: half an ulp of
+    /// that coordinate and a hundredth, or an ulp where it is subnormal, and the smaller of a part of the distance travelled and a
+    /// part of the radius.
     pub fn point_error(&self, root: usize, point: V) -> f64 {
+        let [of_distance, of_radius] = if V::Scalar::DIGITS == 24 { [30, 24] } else { [60, 53] };
+        let allowed =
+            self.travelled(root).scaled(-of_distance).min(self.radius.clone().scaled(-of_radius));
         let from_center = self.center_to_point(root);
-        let errors = [0, 1, 2].map(|i| {
-            let largest = &self.center[i].clone().abs() + &self.radius;
+        let parts = [0, 1, 2].map(|i| {
             let exact = &self.center[i] + &from_center[i];
-            point.coordinates()[i].error(&exact, V::Scalar::ulp(&largest))
+            let ulp = V::Scalar::ulp(&exact);
+            let is_subnormal = ulp == V::Scalar::LEAST_EXPONENT;
+            let hundredths = if is_subnormal { 100 } else { 51 };
+            let rounding = Dyadic::new(hundredths, ulp);
+            let promised = &rounding + &(&allowed * &Dyadic::new(100, 0));
+            // In hundredths of an ulp.
+            point.coordinates()[i].error(&exact, ulp) * 100.0
+                / promised.scaled(-ulp).approximately()
         });
-        errors.into_iter().fold(0.0, f64::max)
+        parts.into_iter().fold(0.0, f64::max)
     }
 
     /// The largest error of a coordinate of a unit normal that was computed for a root, in ulps of 1. A sphere of
