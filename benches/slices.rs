@@ -24,7 +24,7 @@ use measure::timing::{self, PassOver, Regime};
 use methods::{double, single};
 use support::families::Rng;
 
-const COUNTS: [usize; 4] = [1, 8, 46, 1024];
+const COUNTS: [usize; 5] = [1, 8, 46, 1024, 16_384];
 
 fn all<S: Scalar>() -> Range<S> {
     S::ZERO..S::INFINITY

@@ -49,7 +49,7 @@ impl<V: Vector> Hittable<V> for Algebraic<V> {
 
     #[inline(always)]
     fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32 {
-        V::may_hit_four(objects.each_ref().map(|Self(sphere)| sphere), ray, range.end)
+        rejection::may_hit_four(objects.each_ref().map(|Self(sphere)| sphere), ray, range.end)
     }
 }
 

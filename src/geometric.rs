@@ -60,7 +60,7 @@ impl<V: Vector> Hittable<V> for Geometric<V> {
 
     #[inline(always)]
     fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32 {
-        V::may_hit_four(objects.each_ref().map(|Self(sphere)| sphere), ray, range.end)
+        rejection::may_hit_four(objects.each_ref().map(|Self(sphere)| sphere), ray, range.end)
     }
 }
 

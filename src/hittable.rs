@@ -1,7 +1,10 @@
 //! What a ray can meet.
 
+use core::hint::black_box;
+use core::iter;
 use core::ops::Range;
 
+use crate::rejection::HAS_VECTORS;
 use crate::{Hit, Ray, Vector};
 
 /// Anything that a ray can meet: one sphere, or many, or a shape of your own.
@@ -110,8 +113,9 @@ pub trait Hittable<V: Vector = glam::Vec3> {
         true
     }
 
-    /// Returns what [`may_hit`](Self::may_hit) says of each of four objects, together where that is faster: the bit `1 << i` for
-    /// `objects[i]`.
+    /// Returns which of four objects [may be hit](Self::may_hit), with the bit `1 << i` for `objects[i]`.
+    ///
+    /// Where a target has vectors of four numbers, [`nearest`] and slices ask four objects at a time.
     #[inline]
     fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32
     where
@@ -175,8 +179,8 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
 
     #[inline]
     fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
-        let mut near = Near { objects: self, next: 0, near: 0 };
-        core::iter::from_fn(|| near.next(ray, range.clone()))
+        let mut near = Near::new(self);
+        iter::from_fn(|| near.next(ray, range.clone()))
             .any(|(_, object)| object.occludes(ray, range.clone()))
     }
 }
@@ -204,9 +208,19 @@ pub fn nearest<V: Vector, H: Hittable<V>>(
     ray: &Ray<V>,
     range: Range<V::Scalar>,
 ) -> Option<(usize, Hit<V>)> {
-    let start = range.start;
-    let mut near = Near { objects, next: 0, near: 0 };
-    nearest_among(ray, range, |end| near.next(ray, start..end))
+    let Range { start, mut end } = range;
+    let mut near = Near::new(objects);
+    let mut found = None;
+    while let Some((index, object)) = near.next(ray, start..end) {
+        // The ray from where the compiler does not know it: what only a hit needs of it is not computed ahead of the loop.
+        if let Some(hit) = object.intersect(black_box(ray), start..end) {
+            // The range is half open: what comes later must be strictly nearer.
+            end = hit.t;
+            found = Some((index, hit));
+        }
+    }
+    let (index, hit) = found?;
+    Some((index, hit))
 }
 
 /// The nearest of the objects that `next` gives, by ascending index, each time told where the range ends by now.
@@ -233,13 +247,19 @@ pub(crate) fn nearest_among<'a, V: Vector, H: Hittable<V> + 'a>(
 /// The objects that a ray may hit, and perhaps others, by ascending index.
 struct Near<'a, H> {
     objects: &'a [H],
-    /// The first that has not been looked at.
+    /// The first that has not been asked.
     next: usize,
-    /// Of the four before it, those that the ray may hit and that were not given yet: a bit for each.
+    /// Of the four before it, those that may be hit and were not given yet: a bit for each.
     near: u32,
 }
 
 impl<'a, H> Near<'a, H> {
+    #[inline(always)]
+    fn new(objects: &'a [H]) -> Self {
+        Self { objects, next: 0, near: 0 }
+    }
+
+    /// The next one that the ray may hit with t in the range.
     #[inline(always)]
     fn next<V: Vector>(&mut self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<(usize, &'a H)>
     where
@@ -247,7 +267,8 @@ impl<'a, H> Near<'a, H> {
     {
         while self.near == 0 {
             let rest = self.objects.get(self.next..)?;
-            let Some(four) = rest.first_chunk() else {
+            let four = if HAS_VECTORS { rest.first_chunk() } else { None };
+            let Some(four) = four else {
                 let place = rest.iter().position(|object| object.may_hit(ray, range.clone()))?;
                 let index = self.next + place;
                 self.next = index + 1;

@@ -153,6 +153,6 @@ impl<V: Vector> Hittable<V> for Sphere<V> {
 
     #[inline(always)]
     fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32 {
-        V::may_hit_four(objects.each_ref(), ray, range.end)
+        rejection::may_hit_four(objects.each_ref(), ray, range.end)
     }
 }
