@@ -1,10 +1,13 @@
-//! One ray against many spheres: `Spheres` beside loops over the slice, and beside the least that the machine could take.
+//! One ray against many spheres: `Spheres` and `SphereBvh` beside loops over the slice, and the scan beside the least that the
+//! machine could take. (`benches/peers/many_spheres.rs` measures the hierarchy beside other libraries.)
 //!
 //! ```text
 //! cargo bench --bench spheres                  # tables of medians and ratios, then criterion's estimates
 //! cargo bench --bench spheres -- 1024          # only the estimates of what matches, after the tables
 //! cargo bench --bench spheres -- --test        # each once
 //! ```
+//!
+//! With `RUSTFLAGS='--cfg eyeray_lanes="avx2"'`, eyeray does without AVX-512, and with `"compiled"` without AVX2 too.
 //!
 //! Half of the rays come from an eye, half bounce off what those meet. The loops are those that path tracers have: a formula
 //! for each sphere in turn, the nearest so far as the range's end, and the point and the normal of the nearest at last.
@@ -14,7 +17,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, Throughput, criterion_group};
-use eyeray::{Hit, Hittable, Lanes, Ray, Scalar, Sphere, Spheres, nearest};
+use eyeray::{Hit, Hittable, Ray, Scalar, Sphere, SphereBvh, Spheres, nearest};
 use glam::{Vec3, dvec3, vec2};
 
 #[path = "../examples/render/material.rs"]
@@ -62,6 +65,7 @@ fn of_hit((index, hit): (usize, Hit)) -> (usize, f32, Vec3, Vec3) {
 struct Scene {
     slice: Vec<Sphere>,
     spheres: Spheres,
+    bvh: SphereBvh,
     rays: Vec<Ray>,
 }
 
@@ -103,7 +107,12 @@ impl Scene {
             }
         }
         let rays = eye.into_iter().zip(bounced).flat_map(|(eye, bounced)| [eye, bounced]).collect();
-        Self { spheres: slice.iter().copied().collect(), slice, rays }
+        Self {
+            spheres: slice.iter().copied().collect(),
+            bvh: slice.iter().copied().collect(),
+            slice,
+            rays,
+        }
     }
 }
 
@@ -128,30 +137,24 @@ fn pass<T>(find: impl Fn(&Scene, &Ray) -> T + Sync + 'static) -> Pass {
     })
 }
 
-fn passes() -> Vec<(String, Pass)> {
-    let mut passes = vec![
+fn passes() -> Vec<(&'static str, Pass)> {
+    vec![
         (
-            "textbook".into(),
+            "textbook",
             pass(|scene, ray| {
                 by_formula(&scene.slice, ray, |ray, sphere| ahead(textbook(ray, sphere)))
             }),
         ),
-        (
-            "parry3d's formula".into(),
-            pass(|scene, ray| by_formula(&scene.slice, ray, parry_nearest)),
-        ),
-        ("nearest".into(), pass(|scene, ray| nearest(&scene.slice, ray, ALL).map(of_hit))),
-        ("Spheres".into(), pass(|scene, ray| scene.spheres.nearest(ray, ALL).map(of_hit))),
-        ("occludes".into(), pass(|scene, ray| scene.spheres.occludes(ray, ALL))),
-    ];
-    for lanes in Lanes::available() {
-        let find = move |scene: &Scene, ray: &Ray| {
-            scene.spheres.nearest_in_lanes(lanes, ray, ALL).map(of_hit)
-        };
-        passes.push((format!("{lanes:?}"), pass(find)));
-    }
-    passes
+        ("parry3d's formula", pass(|scene, ray| by_formula(&scene.slice, ray, parry_nearest))),
+        ("nearest", pass(|scene, ray| nearest(&scene.slice, ray, ALL).map(of_hit))),
+        ("Spheres", pass(|scene, ray| scene.spheres.nearest(ray, ALL).map(of_hit))),
+        ("SphereBvh", pass(|scene, ray| scene.bvh.nearest(ray, ALL).map(of_hit))),
+        ("occludes", pass(|scene, ray| scene.spheres.occludes(ray, ALL))),
+    ]
 }
+
+/// The place of `Spheres` among them.
+const SCAN: usize = 3;
 
 const COUNTS: [usize; 7] = [1, 2, 4, 8, 46, 1024, 65_536];
 
@@ -165,56 +168,57 @@ fn print_ratios(rounds: usize) {
     }
     println!();
     let turns: Vec<_> = passes.iter().map(|(_, pass)| pass).collect();
-    let lanes = passes.len() - Lanes::available().count();
-    let mut of_lanes = Vec::new();
+    let (lanes, least) = lanes();
+    let mut scanned = Vec::new();
     for count in COUNTS {
         let scene = Scene::new(count);
         let rays = scene.rays.len();
         let regime = Regime { cases: rays, warm_up: 0, timed: 1, rounds };
-        let mut medians = timing::medians(&turns, &scene, rays, regime);
+        let medians = timing::medians(&turns, &scene, rays, regime);
         let formula = medians[0].min(medians[1]);
         print!("{count:>8}");
         for time in &medians {
             print!("{time:>11.1} ({:>4.1}x)", formula / time);
         }
         println!();
-        of_lanes.push((count, medians.split_off(lanes)));
+        scanned.push((count, medians[SCAN]));
     }
 
     let gigahertz = cycles_a_nanosecond();
-    println!("\nnanoseconds a sphere, and how many times the least, at {gigahertz:.2} GHz\n");
-    print!("{:>8}", "spheres");
-    let least: Vec<f64> =
-        passes[lanes..].iter().map(|(name, _)| least_cycles(name) / gigahertz).collect();
-    for ((name, _), least) in passes[lanes..].iter().zip(&least) {
-        print!("{:>19}", format!("{name}, {least:.3}"));
-    }
-    println!();
-    for (count, times) in of_lanes {
-        print!("{count:>8}");
-        for (time, least) in times.iter().zip(&least) {
-            #[expect(clippy::cast_precision_loss, reason = "counts are small")]
-            let a_sphere = time / count as f64;
-            print!("{a_sphere:>11.3} ({:>4.1}x)", a_sphere / least);
-        }
-        println!();
+    println!(
+        "\n`Spheres`: nanoseconds a sphere, and how many times the least, at {gigahertz:.2} GHz\n"
+    );
+    let least = least / gigahertz;
+    println!("{:>8}{:>19}", "spheres", format!("{lanes}, {least:.3}"));
+    for (count, time) in scanned {
+        #[expect(clippy::cast_precision_loss, reason = "counts are small")]
+        let a_sphere = time / count as f64;
+        println!("{count:>8}{a_sphere:>11.3} ({:>4.1}x)", a_sphere / least);
     }
     println!();
 }
 
-/// The least time that a set of instructions could take for a sphere, in cycles, if a core starts two vectors of products and
-/// two of sums in each: the filter computes 3 sums and 8 products, each but two of them with a sum, fused where that can be.
-fn least_cycles(lanes: &str) -> f64 {
+/// The instructions that `Spheres` uses, and the least time that they could take for a sphere, in cycles, if a core starts two
+/// vectors of products and two of sums in each: the filter computes 3 sums and 8 products, each but two of them with a sum,
+/// fused where that can be.
+fn lanes() -> (&'static str, f64) {
     let fused = |lanes: f64| 8.0 / (2.0 * lanes);
-    match lanes {
-        "AVX-512" => fused(16.0),
-        "AVX2" => fused(8.0),
-        _ if cfg!(target_feature = "avx512f") => fused(16.0),
-        _ if cfg!(all(target_feature = "avx2", target_feature = "fma")) => fused(8.0),
-        _ if cfg!(target_arch = "aarch64") => fused(4.0),
+    #[cfg(target_arch = "x86_64")]
+    {
+        let all = !cfg!(any(eyeray_lanes = "avx2", eyeray_lanes = "compiled"));
+        if is_x86_feature_detected!("avx512f") && (all || cfg!(target_feature = "avx512f")) {
+            return ("AVX-512", fused(16.0));
+        }
+        let detected = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+        let compiled = cfg!(all(target_feature = "avx2", target_feature = "fma"));
+        if detected && (!cfg!(eyeray_lanes = "compiled") || compiled) {
+            return ("AVX2", fused(8.0));
+        }
         // Not fused, the products' sums are 6 more.
-        _ => (3.0 + 6.0) / (2.0 * 4.0),
+        ("SSE2", (3.0 + 6.0) / (2.0 * 4.0))
     }
+    #[cfg(not(target_arch = "x86_64"))]
+    ("four lanes", fused(4.0))
 }
 
 /// The processor's cycles a nanosecond: those of a chain of products of integers, each of which takes three on every

@@ -25,12 +25,14 @@ impl From<Sphere<Vec3>> for Sphere<DVec3> {
 /// There is no way back: a point rounded to `f32` is off by more than the distance at which an `f64` hit spawns its rays.
 impl From<Hit<Vec3>> for Hit<DVec3> {
     #[inline]
-    fn from(Hit { t, point, normal, clearance }: Hit<Vec3>) -> Self {
+    fn from(hit: Hit<Vec3>) -> Self {
+        let Hit { t, point, normal, .. } = hit;
         Self {
             t: t.into(),
             point: point.into(),
             normal: normal.into(),
-            clearance: clearance.into(),
+            // The point stays rounded to f32.
+            error: hit.clearance().into(),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::{Ray, Vector};
+use crate::{Ray, Scalar, Vector};
 
 /// Where a ray meets a surface.
 ///
@@ -33,15 +33,15 @@ pub struct Hit<V: Vector = glam::Vec3> {
     pub point: V,
     /// The outward unit normal there, whichever side the ray comes from.
     pub normal: V,
-    /// See [`Hit::clearance`].
-    pub(crate) clearance: V::Scalar,
+    /// How far off the point may be besides the rounding of its coordinates.
+    pub(crate) error: V::Scalar,
 }
 
 impl<V: Vector> Hit<V> {
     /// Creates a hit on a surface of your own.
     ///
-    /// `clearance` is the distance along the normal at which the rays of [`spawn`](Self::spawn) start. It must be larger than the
-    /// error of `point`, so that they start on the side that they leave to.
+    /// `error` is how far off `point` may be besides the rounding of its coordinates. The rays of [`spawn`](Self::spawn) start at
+    /// that distance along the normal and a few ulp of the point more, so that they start on the side that they leave to.
     ///
     /// ```
     /// use core::ops::Range;
@@ -57,7 +57,7 @@ impl<V: Vector> Hit<V> {
     ///         let point = ray.at(t).with_y(0.0);
     ///         // Ahead, whatever the range says, and finite: not along the floor.
     ///         let is_hit = t > 0.0 && range.contains(&t) && point.is_finite();
-    ///         is_hit.then(|| Hit::new(t, point, Vec3::Y, f32::EPSILON))
+    ///         is_hit.then(|| Hit::new(t, point, Vec3::Y, 0.0))
     ///     }
     /// }
     ///
@@ -69,8 +69,8 @@ impl<V: Vector> Hit<V> {
     /// assert!([up, leaving].iter().all(|ray| !Floor.occludes(ray, -2.0..2.0)));
     /// ```
     #[inline]
-    pub const fn new(t: V::Scalar, point: V, normal: V, clearance: V::Scalar) -> Self {
-        Self { t, point, normal, clearance }
+    pub const fn new(t: V::Scalar, point: V, normal: V, error: V::Scalar) -> Self {
+        Self { t, point, normal, error }
     }
 
     /// Returns whether `ray` hits the surface from outside, against the normal.
@@ -103,10 +103,18 @@ impl<V: Vector> Hit<V> {
     }
 
     /// Returns the distance along the normal at which a ray of [`spawn`](Self::spawn) starts.
+    ///
+    /// It is the error of `point` and 4 ulp of its largest coordinate.
     #[inline]
     #[must_use]
     pub fn clearance(&self) -> V::Scalar {
-        self.clearance
+        // With x the largest coordinate of the point, an ulp of x is at most an ulp of 1 times x. The rounding of the point is half
+        // an ulp a coordinate, that of the spawned origin as much, or one where it passes a power of two: together at most
+        // 1.51 √3 < 2.7 ulp of distance. Where an ulp is no smaller than the smallest numbers, there are 4 of these.
+        let largest = V::Scalar::from_f64(self.point.to_f64().abs().max_element());
+        let [four_ulps, four_least] =
+            [4.0 * V::UNIT_ULP, 4.0 * V::LEAST_POSITIVE].map(V::Scalar::from_f64);
+        largest * four_ulps + (self.error + four_least)
     }
 
     /// Creates a ray that leaves the surface here along `direction`: a reflected, refracted or shadow ray.
@@ -134,7 +142,10 @@ impl<V: Vector> Hit<V> {
     #[must_use]
     #[doc(alias("self_intersection", "offset_ray_origin", "spawn_ray"))]
     pub fn spawn(&self, direction: V) -> Ray<V> {
-        let clearance = if self.is_outward(direction) { self.clearance } else { -self.clearance };
+        // Infinite where the point overflows; times a zero of the normal, that would be NaN.
+        let clearance = self.clearance();
+        let clearance = if clearance < V::Scalar::INFINITY { clearance } else { V::Scalar::ZERO };
+        let clearance = if self.is_outward(direction) { clearance } else { -clearance };
         Ray::new(self.point + self.normal * clearance, direction)
     }
 

@@ -187,8 +187,8 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
 
 /// Returns which of `objects` the ray meets first with `t` in `range`, and where: of equal `t`, the lowest index.
 ///
-/// Every object is tried in turn. Of spheres in `f32`, `Spheres` (with the feature `alloc`) gives the same answer several times
-/// as fast.
+/// Every object is tried in turn. Of spheres in `f32`, `Spheres` and `SphereBvh` (with the feature `alloc`) give the same answer,
+/// few several times as fast and many a thousand times.
 ///
 /// ```
 /// use eyeray::{Ray, Sphere, nearest};

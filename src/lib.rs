@@ -31,14 +31,15 @@
 //! - [`Sphere`] is met by either of two derivations, [`Algebraic`] and [`Geometric`], which agree bit for bit in `f32`.
 //! - [`Hittable`] is what a ray can meet; a [`Hit`] has the distance, the point and the normal, and
 //!   [spawns](Hit::spawn) rays that leave the surface for good.
-//! - [`nearest`] says which of many objects is met first, and `Spheres` does so for many spheres at a time, sooner.
+//! - [`nearest`] says which of many objects is met first. `Spheres` does so for few or changing spheres sooner, and `SphereBvh`
+//!   for up to millions.
 //!
 //! All of it is for glam's vectors, [`Vec3`](glam::Vec3) by default and [`DVec3`](glam::DVec3) for twice the precision: see
 //! [`Vector`]. `From` takes rays, spheres, hits and cameras to `f64` exactly, and `to_f32` rounds the plain data back. It is any
 //! glam from 0.33.11 to the last 0.34, and exported again as [`glam`]: the README tells how to have one glam in the tree.
 //!
 //! The formulas are those of S. Marschner's CS4620 lecture 6, *Ray Tracing Basics*, generalized to any center, radius and
-//! length of direction. There are no materials, no triangles, no colors and no acceleration structures here.
+//! length of direction. There are no materials, no triangles, no colors and no acceleration structures but that of spheres here.
 //!
 //! # Features
 //!
@@ -46,7 +47,7 @@
 //! - `libm`: for `no_std`, square roots from the [libm](https://docs.rs/libm) crate. One of `std` and `libm` is needed.
 //!   [`Sphere`]'s `intersect` takes 41 kB of a Cortex-M4F's code in `f32`, 48 kB in `f64` and 69 kB in both, optimized for size
 //!   and with the `f64` arithmetic that its hardware lacks (`tests/targets/run`).
-//! - `alloc`: `Spheres`, and [`Hittable`] for `Vec`, `Box`, `Rc` and `Arc`. Implied by `std`.
+//! - `alloc`: `Spheres` and `SphereBvh`, and [`Hittable`] for `Vec`, `Box`, `Rc` and `Arc`. Implied by `std`.
 //! - `serde`: `Serialize` and `Deserialize` for all data types. A [`Camera`] is checked again when it is deserialized; bit for bit it
 //!   is read by a format that reads each `f64` so: of `serde_json`, that takes the feature `float_roundtrip`.
 //! - `bytemuck`: `Pod` and `Zeroable` for [`Ray`] and [`Sphere`], to hand them to a GPU as bytes.

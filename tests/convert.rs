@@ -57,8 +57,11 @@ fn every_field_stays_in_its_place() {
     assert_eq!((ViewRect::<f64>::from(view), wide.to_f32()), (wide, view));
 
     let hit = Hit::new(1.0, vec3(2.0, 3.0, 4.0), vec3(5.0, 6.0, 7.0), 8.0);
-    let wide = Hit::new(1.0, dvec3(2.0, 3.0, 4.0), dvec3(5.0, 6.0, 7.0), 8.0);
-    assert_eq!(Hit::<DVec3>::from(hit), wide);
+    let wide = Hit::<DVec3>::from(hit);
+    let (point, normal) = (dvec3(2.0, 3.0, 4.0), dvec3(5.0, 6.0, 7.0));
+    assert_eq!((wide.t, wide.point, wide.normal), (1.0, point, normal));
+    // The point stays as coarse as it is.
+    assert!((f64::from(hit.clearance())..8.001).contains(&wide.clearance()));
 }
 
 proptest! {

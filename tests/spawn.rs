@@ -1,5 +1,5 @@
 //! Rays spawned at a hit never meet the surface they leave: outwards they start strictly outside the sphere, inwards
-//! strictly inside, judged by exact arithmetic.
+//! strictly inside, judged by exact arithmetic; and no farther from the surface than promised.
 //!
 //! The long run, of one and a half million spawned rays or more in each precision:
 //!
@@ -86,14 +86,23 @@ fn tally<V: Precision + Coordinates>(seed: u64) -> Tally {
     let mut rng = Rng::new(seed);
     let mut tally = Tally::default();
     for _ in 0..CASES_PER_SEED {
-        let sphere = sphere::<V>(&mut rng);
-        let ray = towards(&mut rng, &sphere);
+        let (sphere, ray) = if rng.coin() {
+            let sphere = sphere::<V>(&mut rng);
+            let ray = towards(&mut rng, &sphere);
+            (sphere, ray)
+        } else {
+            ground(&mut rng)
+        };
         let Some(hit) = sphere.intersect(&ray, V::Scalar::ZERO..V::Scalar::INFINITY) else {
             continue;
         };
+        if !is_large(&sphere, hit.point) {
+            continue;
+        }
         for outwards in [true, false] {
             let (direction, grazing) = leaving(&mut rng, hit.normal.to_f64(), outwards);
-            let spawned = hit.spawn(V::from_f64(direction));
+            let direction = V::from_f64(direction);
+            let spawned = hit.spawn(direction);
             let (count, wanted) = if outwards {
                 (&mut tally.outwards, Ordering::Greater)
             } else {
@@ -101,7 +110,13 @@ fn tally<V: Precision + Coordinates>(seed: u64) -> Tally {
             };
             *count += 1;
             tally.grazing += u64::from(grazing);
-            if let Err(what) = examine(&sphere, &spawned, wanted) {
+            let result = examine(&sphere, &spawned, wanted)
+                .and_then(|()| stays_close(&sphere, &ray, hit.point, spawned.origin))
+                .and_then(|()| {
+                    let agrees = hit.is_outward(direction) == outwards;
+                    agrees.then_some(()).ok_or_else(|| "is_outward contradicts".to_owned())
+                });
+            if let Err(what) = result {
                 tally.failed += 1;
                 tally.first_failure.get_or_insert_with(|| {
                     format!(
@@ -114,6 +129,67 @@ fn tally<V: Precision + Coordinates>(seed: u64) -> Tally {
         }
     }
     tally
+}
+
+/// A ground of radius 1e2 to 1e7 with its top near the world's origin, and a ray at it from 0.01 to 1,000 above, or from inside.
+fn ground<V: Precision>(rng: &mut Rng) -> (Sphere<V>, Ray<V>) {
+    let radius = rng.magnitude(1e2, 1e7);
+    let up = if rng.coin() { DVec3::Y } else { rng.unit_vector() };
+    let sphere = Sphere::new(V::from_f64(up * -radius), V::Scalar::from_f64(radius));
+    let height = rng.magnitude(0.01, 1000.0);
+    let aside = rng.perpendicular(up) * (height * rng.magnitude(1e-3, 30.0));
+    let from_below = rng.below(4) == 0;
+    let origin = up * if from_below { -height } else { height };
+    let ray = Ray::new(V::from_f64(origin), V::from_f64(aside - origin));
+    (sphere, ray)
+}
+
+/// An ulp of the largest coordinate of a point.
+fn ulp_of<V: Coordinates>(point: V) -> Dyadic {
+    let ulps = point.coordinates().map(|x| V::Scalar::ulp(&Dyadic::exactly(x.into())));
+    Dyadic::new(1, ulps.into_iter().max().expect("there are three"))
+}
+
+/// Whether the promise holds for a sphere at that point.
+fn is_large<V: Coordinates>(sphere: &Sphere<V>, point: V) -> bool {
+    Dyadic::exactly(sphere.radius.into()) >= &ulp_of(point) * &Dyadic::new(1000, 0)
+}
+
+/// Whether a spawned ray starts no farther from the surface than promised: 32 times the sum of an ulp of the point's largest
+/// coordinate and the smaller of a part of the distance travelled and a part of the radius, and a smaller part of the radius more.
+fn stays_close<V: Coordinates>(
+    sphere: &Sphere<V>,
+    ray: &Ray<V>,
+    point: V,
+    spawned: V,
+) -> Result<(), String> {
+    let [of_distance, of_radius, more_of_radius] =
+        if V::Scalar::DIGITS == 24 { [32, 24, 47] } else { [62, 53, 102] };
+    let exactly = |v: V| v.coordinates().map(|x| Dyadic::exactly(x.into()));
+    let distance_squared = |v: V, w: V| {
+        let (v, w) = (exactly(v), exactly(w));
+        let squares = [0, 1, 2].map(|i| {
+            let difference = &v[i] - &w[i];
+            &difference * &difference
+        });
+        squares.iter().fold(Dyadic::ZERO, |sum, square| &sum + square)
+    };
+    let radius = Dyadic::exactly(sphere.radius.into());
+    let travelled = distance_squared(point, ray.origin).square_root(100);
+    let off = travelled.scaled(-of_distance).min(radius.clone().scaled(-of_radius));
+    let promised = &(&ulp_of(point) + &off).scaled(5) + &radius.clone().scaled(-more_of_radius);
+    let distance = distance_squared(spawned, sphere.center);
+    let square = |x: &Dyadic| x * x;
+    let is_close = distance <= square(&(&radius + &promised))
+        && distance >= square(&(&radius - &promised).max(Dyadic::ZERO));
+    is_close.then_some(()).ok_or_else(|| {
+        let from_surface = (&distance.square_root(200) - &radius).abs();
+        format!(
+            "{:e} from the surface, and {:e} are promised",
+            from_surface.approximately(),
+            promised.approximately()
+        )
+    })
 }
 
 /// A sphere of a radius from 1e-3 to 1e6, at up to 1e6 from the world's origin: at least 1,000 ulp of its largest
@@ -186,7 +262,7 @@ fn examine<V: Coordinates>(
         }
         match (&ahead, hit) {
             (None, None) => {}
-            (Some(root), Some(hit)) if root.error(hit.t) <= 1.0 => {}
+            (Some(root), Some(hit)) if root.error(hit.t) <= 0.5 => {}
             (ahead, hit) => return Err(format!("{hit:?}, but the exact root ahead is {ahead:?}")),
         }
     }
@@ -199,9 +275,14 @@ fn directions_in_the_tangent_plane_leave_too() {
     // from outside it meets nothing, from inside the far wall.
     fn check<V: Precision + Coordinates>() {
         let mut rng = Rng::new(0);
-        for _ in 0..2000 {
-            let sphere = sphere::<V>(&mut rng);
-            let ray = towards(&mut rng, &sphere);
+        for case in 0..4000 {
+            let (sphere, ray) = if case % 2 == 0 {
+                let sphere = sphere::<V>(&mut rng);
+                let ray = towards(&mut rng, &sphere);
+                (sphere, ray)
+            } else {
+                ground(&mut rng)
+            };
             let Some(hit) = sphere.intersect(&ray, V::Scalar::ZERO..V::Scalar::INFINITY) else {
                 continue;
             };
@@ -210,6 +291,7 @@ fn directions_in_the_tangent_plane_leave_too() {
             let spawned = hit.spawn(V::from_f64(rng.perpendicular(normal.normalize()) + lean));
             let side = side(&sphere, spawned.origin).expect("all is finite");
             assert!(side.is_ne(), "on the surface: {}", source(&spawned, &sphere));
+            assert_eq!(hit.is_outward(spawned.direction), side.is_gt(), "another side");
             examine(&sphere, &spawned, side)
                 .unwrap_or_else(|what| panic!("{what}\n{}", source(&spawned, &sphere)));
         }

@@ -113,6 +113,18 @@ pub(crate) fn compensated_dot(a: Triple<f64>, b: Triple<f64>) -> Pair {
 }
 
 impl Pair {
+    /// The product with a number, very nearly.
+    ///
+    /// Where the low part may have underflowed, it is left out: what is left of it depends on whether the machine has a fused
+    /// multiply-add.
+    #[inline(always)]
+    pub(crate) fn times(self, factor: f64) -> Self {
+        const SMALL: f64 = f64::from_bits((1023 - 900) << 52); // 2^-900
+        let product = two_product(self.hi, factor);
+        let low = if product.hi.abs() < SMALL { 0.0 } else { product.lo };
+        Self { hi: product.hi, lo: low + self.lo * factor }
+    }
+
     /// The square root of a positive pair: relative error at most [`ROOT_ERROR`].
     ///
     /// One step of Newton's from the square root of `hi`.

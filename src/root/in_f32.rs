@@ -55,13 +55,10 @@ impl Setting {
         D::chord(Triple::from(self.o), Triple::from(self.line.direction), self.radius_squared)
     }
 
-    /// The hit at a root of the plain step, with the root rounded.
+    /// The hit at a root of the plain step, with the root rounded, from no farther than [`NEAR`].
     #[inline(always)]
-    fn found(&self, chord: &Chord<f64>, t: f64, rounded: f32, half_chord: f64) -> Found {
-        let Self { line, o, radius_squared } = *self;
-        if chord.distance_squared > NEAR * radius_squared {
-            return self.found_from_afar(chord.a, rounded, half_chord);
-        }
+    fn found(&self, t: f64, rounded: f32) -> Found {
+        let Self { line, o, .. } = *self;
         let step = line.direction * t;
         let normal = (step - o) * line.radius.recip();
         Found { t: rounded.into(), point: line.origin + step, normal }
@@ -98,18 +95,24 @@ fn nearest_again(
     let chord = setting.chord::<Quadratic>();
     let larger = chord.distance_squared.max(setting.radius_squared);
     let fine_power = || Some(halves::power(setting.line, setting.o, larger));
+    let is_far = chord.distance_squared > NEAR * setting.radius_squared;
     // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
     let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
     match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
         Nearest::Root { t, half_chord } => {
             let rounded = t as f32;
             if rounds_safely::<MARGIN>(t) && is_certain(rounded) {
-                return (rounded < end).then(|| setting.found(&chord, t, rounded, half_chord));
+                return (rounded < end).then(|| {
+                    if is_far {
+                        setting.found_from_afar(chord.a, rounded, half_chord)
+                    } else {
+                        setting.found(t, rounded)
+                    }
+                });
             }
         }
         Nearest::Rough { t, error } => {
             let [low, rounded] = [(t - error) as f32, (t + error) as f32];
-            let is_far = chord.distance_squared > NEAR * setting.radius_squared;
             if low == rounded && is_certain(rounded) && is_far {
                 return (rounded < end).then(|| setting.found_from_afar(chord.a, rounded, 1.0));
             }
@@ -120,6 +123,9 @@ fn nearest_again(
 }
 
 impl Precision for Vec3 {
+    const UNIT_ULP: f64 = f32::EPSILON as f64;
+    const LEAST_POSITIVE: f64 = f32::from_bits(1) as f64;
+
     // Inlined always: so that what a caller does not use of the hit is not computed.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
@@ -135,17 +141,15 @@ impl Precision for Vec3 {
                     && rounded >= range.start
                     && rounded >= f32::MIN_POSITIVE
                 {
-                    if rounded >= range.end {
+                    if rounded >= range.end || range.end.is_nan() {
                         return None;
                     }
                     // The two apart, so that the compiler need not keep what one of them does without.
                     return if chord.distance_squared > NEAR * setting.radius_squared {
-                        Some(hit(
-                            setting.line,
-                            setting.found_from_afar(chord.a, rounded, half_chord),
-                        ))
+                        let found = setting.found_from_afar(chord.a, rounded, half_chord);
+                        Some(hit(setting.line, found))
                     } else {
-                        Some(hit(setting.line, setting.found(&chord, t, rounded, half_chord)))
+                        Some(hit(setting.line, setting.found(t, rounded)))
                     };
                 }
             }
@@ -181,31 +185,26 @@ impl Precision for Vec3 {
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded already")]
 fn hit(line: Line, found: Found) -> Hit {
     let (t, point) = (found.t as f32, found.point.as_vec3());
-    Hit { t, point, normal: found.normal.as_vec3(), clearance: clearance(point, t, line) }
+    Hit { t, point, normal: found.normal.as_vec3(), error: point_error(t, line) }
 }
 
-/// How far along the normal a spawned ray starts.
+/// How far off the point may be besides the rounding of its coordinates, and more: see [`Hit::clearance`].
 ///
-/// With x the largest coordinate of the point, an ulp of x is at most 2⁻²³ x. The rounding of the point is half an ulp a
-/// coordinate, that of the spawned origin as much, or one where it passes a power of two: together at most 1.51 √3 < 2.7 ulp of
-/// distance, and there are 4. All else that the point is off is at most the smaller of 2⁻³¹ of the distance travelled and 2⁻²⁵ of
-/// the radius; there are 2⁻²⁹ of the largest coordinate of the way travelled, which is at least 1/√3 of it, and 2⁻²⁴. A direction
-/// that is outward by the rounded normal is inward in truth by no more than that is off, e < √3 2⁻²⁵, and passes the surface from
-/// e² r / 2 above it; there are 2⁻⁴⁸ r. Where an ulp is no smaller than the smallest numbers, there are 4 of these.
+/// The point is off by at most the smaller of 2⁻³¹ of the distance travelled and 2⁻²⁵ of the radius; here are 2⁻²⁹ of the largest
+/// coordinate of the way travelled, which is at least 1/√3 of it, and 2⁻²⁴ of the radius. A direction that is outward by the
+/// rounded normal is inward in truth by no more than that is off, e < √3 2⁻²⁵, and passes the surface from e² r / 2 above it; here
+/// are 2⁻⁴⁸ r.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "there is room for rounding")]
-fn clearance(point: Vec3, t: f32, line: Line) -> f32 {
-    const FOUR_ULPS: f32 = 4.0 * f32::EPSILON;
+fn point_error(t: f32, line: Line) -> f32 {
     const OF_DISTANCE: f32 = f32::EPSILON / 64.0;
     const OF_RADIUS: f32 = f32::EPSILON / 2.0;
     const OF_CURVATURE: f32 = f32::EPSILON * f32::EPSILON / 4.0;
-    const FOUR_LEAST: f32 = f32::from_bits(4);
     // Not `f32::max`, which takes care of NaN: here there is none.
     let larger = |a: f32, b: f32| if a > b { a } else { b };
     let smaller = |a: f32, b: f32| if a < b { a } else { b };
-    let largest = |v: Vec3| larger(larger(v.x.abs(), v.y.abs()), v.z.abs());
-    let travelled = t * largest(line.direction.as_vec3());
+    let Vec3 { x, y, z } = line.direction.as_vec3().abs();
+    let travelled = t * larger(larger(x, y), z);
     let radius = line.radius as f32;
-    let off = smaller(travelled * OF_DISTANCE, radius * OF_RADIUS) + radius * OF_CURVATURE;
-    largest(point) * FOUR_ULPS + (off + FOUR_LEAST)
+    smaller(travelled * OF_DISTANCE, radius * OF_RADIUS) + radius * OF_CURVATURE
 }

@@ -116,6 +116,9 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
 }
 
 impl Precision for DVec3 {
+    const UNIT_ULP: f64 = f64::EPSILON;
+    const LEAST_POSITIVE: f64 = f64::from_bits(1);
+
     #[inline(always)]
     fn intersect<D: Derivation>(
         sphere: &Sphere<Self>,
@@ -172,26 +175,22 @@ impl Precision for DVec3 {
 /// The hit.
 #[inline(always)]
 fn hit(line: Line, t: f64, point: DVec3, normal: DVec3) -> Hit<DVec3> {
-    Hit { t, point, normal, clearance: clearance(point, t, line) }
+    Hit { t, point, normal, error: point_error(t, line) }
 }
 
-/// How far along the normal a spawned ray starts.
+/// How far off the point may be besides the rounding of its coordinates, and more: see [`Hit::clearance`].
 ///
 /// As for `f32`, where the point may be off by the smaller of 2⁻⁶⁰ of the distance travelled and 2⁻⁵³ of the radius, and the normal
 /// by e < √3 2⁻⁵².
 #[inline(always)]
-fn clearance(point: DVec3, t: f64, line: Line) -> f64 {
-    const FOUR_ULPS: f64 = 4.0 * f64::EPSILON;
+fn point_error(t: f64, line: Line) -> f64 {
     const OF_DISTANCE: f64 = f64::EPSILON / 64.0;
     const OF_RADIUS: f64 = f64::EPSILON;
     const OF_CURVATURE: f64 = 2.0 * f64::EPSILON * f64::EPSILON;
-    const FOUR_LEAST: f64 = f64::from_bits(4);
     // Not `f64::max`, which takes care of NaN: here there is none.
     let larger = |a: f64, b: f64| if a > b { a } else { b };
     let smaller = |a: f64, b: f64| if a < b { a } else { b };
-    let largest = |v: DVec3| larger(larger(v.x.abs(), v.y.abs()), v.z.abs());
-    let travelled = t * largest(line.direction);
-    let off =
-        smaller(travelled * OF_DISTANCE, line.radius * OF_RADIUS) + line.radius * OF_CURVATURE;
-    largest(point) * FOUR_ULPS + (off + FOUR_LEAST)
+    let DVec3 { x, y, z } = line.direction.abs();
+    let travelled = t * larger(larger(x, y), z);
+    smaller(travelled * OF_DISTANCE, line.radius * OF_RADIUS) + line.radius * OF_CURVATURE
 }

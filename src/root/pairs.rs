@@ -279,14 +279,10 @@ impl Crossing {
 
         // From the foot of the closest approach, at (o × d) × d / a from the center, half a chord to either side.
         let along = if side == Side::Near { -self.half_chord } else { self.half_chord };
-        let times = |number: Pair, d: f64| {
-            let product = two_product(number.hi, d);
-            Pair { hi: product.hi, lo: product.lo + number.lo * d }
-        };
         let foot = moment(self.moment, d);
-        let offset = foot.zip(d, |foot, d| (foot + times(along, d)) / self.a);
+        let offset = foot.zip(d, |foot, d| without_dust((foot + along.times(d)) / self.a));
         let (start, exponent, step) = if is_close {
-            (line.origin, estimate.exponent, d.map(|d| times(estimate.t, d)))
+            (line.origin, estimate.exponent, d.map(|d| without_dust(estimate.t.times(d))))
         } else {
             (line.center, length_exponent, offset)
         };
@@ -296,16 +292,16 @@ impl Crossing {
             let low = sum.lo + scale(step.lo, exponent);
             if sum.hi.is_finite() { sum.hi + low } else { sum.hi }
         });
-        let normal = offset.map(|offset| without_dust(offset.hi / radius));
+        let normal = offset.map(|offset| offset.hi / radius);
         Some(Found { t, point: point.into(), normal: normal.into() })
     }
 }
 
-/// A coordinate of a unit vector, zero where it is so small that the low part of a product underflowed on the way: what is left
-/// of such a part depends on whether the machine has a fused multiply-add.
+/// A coordinate of a vector of about unit length, zero where it is so small that the low part of a product underflowed on the way:
+/// what is left of such a part depends on whether the machine has a fused multiply-add.
 #[inline(always)]
-fn without_dust(coordinate: f64) -> f64 {
+fn without_dust(coordinate: Pair) -> Pair {
     const DUST: f64 = f64::from_bits((1023 - 800) << 52); // 2^-800
     // A zero of the same sign.
-    if coordinate.abs() < DUST { coordinate * 0.0 } else { coordinate }
+    if coordinate.hi.abs() < DUST { Pair::from(coordinate.hi * 0.0) } else { coordinate }
 }

@@ -115,10 +115,7 @@ pub(super) fn small_root(
 #[inline(always)]
 pub(super) fn hit(line: Line, o: Triple<Pair>, root: Pair, t: f64) -> Found {
     let d = Triple::from(line.direction);
-    let step = d.map(|d| {
-        let product = two_product(root.hi, d);
-        Pair { hi: product.hi, lo: product.lo + root.lo * d }
-    });
+    let step = d.map(|d| root.times(d));
     let sum = |start: Pair, step: Pair| {
         let sum = two_sum(start.hi, step.hi);
         sum.hi + (sum.lo + (start.lo + step.lo))

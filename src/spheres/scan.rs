@@ -24,11 +24,9 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 ///
 /// # When to use it
 ///
-/// Wherever there are two spheres or more: it is faster than a loop over any formula. The time that a ray takes is still
-/// proportional to the number of spheres, and from some hundreds on most of it goes into spheres far from the ray. A bounding
-/// volume hierarchy skips those in groups: it takes longer to build, and is the better choice from some thousands on. It can be
-/// built on [`Sphere::bounds`]. (`cargo bench --bench spheres` measures 1 to 65,536, and `examples/many_spheres` has a
-/// hierarchy.)
+/// Wherever there are two spheres or more: it is faster than a loop over any formula. Spheres can be added, changed and removed
+/// one by one. The time that a ray takes is proportional to their number: for more than some hundred that stay as they are,
+/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. (`cargo bench --bench spheres` measures 1 to 65,536.)
 ///
 /// # How fast it can be
 ///

@@ -10,6 +10,10 @@ use super::lanes::Lanes;
 use super::{SphereBvh, Spheres};
 use crate::{Hit, Hittable, Ray, Sphere, nearest};
 
+#[allow(
+    clippy::duplicate_mod,
+    reason = "those of the integration tests, which other unit tests take too"
+)]
 #[path = "../../tests/support/families.rs"]
 mod families;
 

@@ -40,6 +40,7 @@ fn rays_go_row_by_row_through_the_centers() -> Result<(), CameraError> {
     }
     let rays = camera.rays(width.into(), height.into());
     assert_eq!(rays.len(), expected.len());
+    assert_eq!(rays.size_hint(), (15, Some(15)));
     assert_eq!(rays.clone().collect::<Vec<Ray>>(), expected);
     assert_eq!(rays.clone().nth(7), Some(expected[7]));
     assert_eq!(rays.clone().nth_back(2), Some(expected[12]));

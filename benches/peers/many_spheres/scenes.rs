@@ -124,7 +124,8 @@ fn chain(seed: u64) -> Vec<Sphere> {
     let mut spheres = Vec::new();
     for _ in 0..50_000 {
         let home = -place / 60.0;
-        direction = (direction + random.unit_vector() * 0.9 + home * home.length() * 0.5).normalize();
+        direction =
+            (direction + random.unit_vector() * 0.9 + home * home.length() * 0.5).normalize();
         place += direction * 1.4;
         spheres.push(Sphere::new(place, random.between(1.2, 1.9)));
     }
@@ -136,7 +137,8 @@ fn galaxy(seed: u64) -> Vec<Sphere> {
     let mut random = Random::new(seed);
     (0..200_000)
         .map(|_| {
-            let (angle, distance) = (random.between(0.0, TAU), random.between(0.0, 1.0).powi(2) * 1000.0);
+            let (angle, distance) =
+                (random.between(0.0, TAU), random.between(0.0, 1.0).powi(2) * 1000.0);
             let height = random.normal().x * (4.0 + 40.0 * (-distance / 150.0).exp());
             let center = vec3(distance * angle.cos(), height, distance * angle.sin());
             Sphere::new(center, random.between(0.2, 2.0))
@@ -148,7 +150,12 @@ fn galaxy(seed: u64) -> Vec<Sphere> {
 fn shell(seed: u64) -> Vec<Sphere> {
     let mut random = Random::new(seed);
     (0..30_000)
-        .map(|_| Sphere::new(random.unit_vector() * random.between(99.0, 101.0), random.between(0.5, 1.5)))
+        .map(|_| {
+            Sphere::new(
+                random.unit_vector() * random.between(99.0, 101.0),
+                random.between(0.5, 1.5),
+            )
+        })
         .collect()
 }
 
@@ -162,7 +169,8 @@ pub fn rays(spheres: &[Sphere], hierarchy: &SphereBvh, count: usize, seed: u64) 
         let mut coordinates: Vec<f32> = spheres.iter().map(|sphere| sphere.center[axis]).collect();
         coordinates.sort_by(f32::total_cmp);
         let outside = coordinates.len() / 20;
-        (low[axis], high[axis]) = (coordinates[outside], coordinates[coordinates.len() - 1 - outside]);
+        (low[axis], high[axis]) =
+            (coordinates[outside], coordinates[coordinates.len() - 1 - outside]);
     }
     let (low, high) = (Vec3::from(low), Vec3::from(high));
     let (middle, extent) = (low.midpoint(high), high - low);

@@ -1,17 +1,18 @@
-//! What a ray costs in a cloud of 100 to 1,000,000 spheres: asked of all of them by [`eyeray::Spheres`], and through a
-//! hierarchy of boxes around them, by the crate obvhs.
+//! Which of 100 to 1,000,000 spheres a ray meets first, by [`eyeray::SphereBvh`], and what that costs, beside a scan of them all
+//! ([`eyeray::Spheres`]), a hierarchy by the crate obvhs, and Embree.
 //!
 //! ```text
 //! cargo run --release --manifest-path examples/many_spheres/Cargo.toml
 //! cargo run --release --manifest-path examples/many_spheres/Cargo.toml -- --largest 10000 --rays 1000000
 //! ```
 //!
-//! The hierarchy takes longer to build, and is worth it for more than a few thousand spheres. Half of the rays are eye rays,
-//! the other half leave the surfaces that those have met. Both ways must give the same hits, bit for bit, or the example fails.
+//! Half of the rays are eye rays, the other half leave the surfaces that those have met. The scan, `SphereBvh` and the exact
+//! routine in obvhs's hierarchy must give the same hits, bit for bit, or the example fails. Embree, which computes in single
+//! precision, is there if Debian's libembree-dev is installed.
 
 mod arguments;
 mod cloud;
-mod hierarchy;
+mod obvhs;
 
 use std::hint::black_box;
 use std::io::{Write, stderr, stdout};
@@ -19,8 +20,8 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use arguments::{Arguments, Request, USAGE};
-use eyeray::{Hit, Ray, Spheres};
-use hierarchy::Hierarchy;
+use eyeray::{Hit, Ray, Sphere, SphereBvh, Spheres};
+use obvhs::Hierarchy;
 
 /// How many spheres there are in the clouds.
 const SIZES: [u32; 13] = [
@@ -45,83 +46,99 @@ fn tell(mut to: impl Write, message: &str, code: ExitCode) -> ExitCode {
     code
 }
 
-/// Measures all sizes, printing each as it is done, and says where the hierarchy overtakes the scan.
+/// Measures all sizes, printing each as it is done, and says from where on `SphereBvh` is faster than the scan.
 fn run(arguments: &Arguments) -> Result<String, String> {
     let eye_rays =
         cloud::eye_rays(arguments.rays / 2).map_err(|error| format!("no such camera: {error}"))?;
-    print_row("", "scan", "scan", "hierarchy", "hierarchy", "same hits");
-    print_row("spheres", "build", "a ray", "build", "a ray", "of so many rays");
+    print_row(
+        "spheres",
+        ["scan", "SphereBvh", "obvhs", "Embree", "built in", "same hits"].map(String::from),
+    );
 
     let mut overtakes = None;
     for count in SIZES.into_iter().filter(|&count| count <= arguments.largest) {
         let row = measure(count, &eye_rays, arguments.rays)?;
-        if row.hierarchy.a_ray >= row.scan.a_ray {
+        if row.bvh >= row.scan {
             overtakes = None;
         } else if overtakes.is_none() {
             overtakes = Some(count);
         }
-        print_row(
-            &count.to_string(),
-            &format!("{:.2} ms", row.scan.build.as_secs_f64() * 1e3),
-            &format!("{:.0} ns", row.scan.a_ray),
-            &format!("{:.2} ms", row.hierarchy.build.as_secs_f64() * 1e3),
-            &format!("{:.0} ns", row.hierarchy.a_ray),
-            &row.compared.to_string(),
-        );
+        let nanoseconds = |time: f64| format!("{time:.0} ns");
+        let cells = [
+            nanoseconds(row.scan),
+            nanoseconds(row.bvh),
+            nanoseconds(row.obvhs),
+            row.embree.map_or("skipped".into(), nanoseconds),
+            format!("{:.2} ms", row.build.as_secs_f64() * 1e3),
+            format!("of {} rays", row.compared),
+        ];
+        print_row(&count.to_string(), cells);
     }
     Ok(match overtakes {
-        Some(count) => format!("The hierarchy is faster from {count} spheres on."),
+        Some(count) => format!("SphereBvh is faster than the scan from {count} spheres on."),
         None => "The scan is as fast to the end.".to_owned(),
     })
 }
 
-fn print_row(count: &str, scan: &str, a_scan: &str, build: &str, a_query: &str, same: &str) {
-    let row = format!("{count:>9}{scan:>11}{a_scan:>12}{build:>12}{a_query:>11}  {same}");
+fn print_row(count: &str, cells: [String; 6]) {
+    let cells = cells.map(|cell| format!("{cell:>16}"));
+    let row = format!("{count:>9}{}", cells.concat());
     tell(stdout(), &row, ExitCode::SUCCESS);
 }
 
-/// What was measured of one cloud.
+/// What was measured of one cloud: nanoseconds a ray.
 struct Row {
-    scan: Cost,
-    hierarchy: Cost,
-    /// How many rays were asked of both.
+    scan: f64,
+    bvh: f64,
+    obvhs: f64,
+    /// If it is there.
+    embree: Option<f64>,
+    /// How long `SphereBvh` took to sort the spheres.
+    build: Duration,
+    /// How many rays were asked of all.
     compared: usize,
 }
 
-struct Cost {
-    build: Duration,
-    /// In nanoseconds.
-    a_ray: f64,
-}
-
 fn measure(count: u32, eye_rays: &[Ray], ray_count: u32) -> Result<Row, String> {
+    const ALL: std::ops::Range<f32> = 0.0..f32::INFINITY;
     let spheres = cloud::spheres(count as usize);
-    let (scan, scan_build) = timed(|| spheres.iter().copied().collect::<Spheres>());
-    let (hierarchy, hierarchy_build) = timed(|| Hierarchy::new(&spheres));
+    let scan: Spheres = spheres.iter().copied().collect();
+    let (bvh, build) = timed(|| spheres.iter().copied().collect::<SphereBvh>());
+    let hierarchy = Hierarchy::new(&spheres);
+    let numbers: Vec<[f32; 4]> =
+        spheres.iter().map(|&Sphere { center: c, radius }| [c.x, c.y, c.z, radius]).collect();
+    let embree = embree::Device::new().and_then(|device| device.build(&numbers));
 
     let hits: Vec<Hit> =
-        eye_rays.iter().filter_map(|ray| hierarchy.nearest(ray)).map(|(_, hit)| hit).collect();
+        eye_rays.iter().filter_map(|ray| bvh.nearest(ray, ALL)).map(|(_, hit)| hit).collect();
     let mut rays = eye_rays.to_vec();
     rays.extend(cloud::bounce_rays(&hits, ray_count - ray_count / 2));
     // A scan takes as much longer as there are more spheres: of a large cloud, some of the rays have to do.
     let every = 1 + count as usize / 2_000;
     let sample: Vec<Ray> = rays.iter().copied().step_by(every).collect();
 
-    let scanned = |ray: &Ray| scan.nearest(ray, 0.0..f32::INFINITY);
     for ray in &sample {
-        let (expected, found) = (scanned(ray), hierarchy.nearest(ray));
-        if found != expected {
-            return Err(format!(
-                "of {count} spheres, {ray:?} meets {expected:?}, but in the hierarchy {found:?}"
-            ));
+        let expected = scan.nearest(ray, ALL);
+        for (name, found) in
+            [("SphereBvh", bvh.nearest(ray, ALL)), ("obvhs", hierarchy.nearest(ray))]
+        {
+            if found != expected {
+                return Err(format!(
+                    "of {count} spheres, {ray:?} meets {expected:?}, but by {name} {found:?}"
+                ));
+            }
         }
     }
     Ok(Row {
-        scan: Cost { build: scan_build, a_ray: nanoseconds(&sample, scanned) },
-        hierarchy: Cost {
-            build: hierarchy_build,
-            a_ray: nanoseconds(&rays, |ray| hierarchy.nearest(ray)),
-        },
+        scan: nanoseconds(&sample, |ray| scan.nearest(ray, ALL)),
+        bvh: nanoseconds(&rays, |ray| bvh.nearest(ray, ALL)),
+        obvhs: nanoseconds(&rays, |ray| hierarchy.nearest(ray)),
+        embree: embree.map(|embree| {
+            nanoseconds(&rays, |ray| {
+                embree.nearest(ray.origin.to_array(), ray.direction.to_array())
+            })
+        }),
+        build,
         compared: sample.len(),
     })
 }
@@ -136,7 +153,7 @@ fn timed<T>(make: impl FnOnce() -> T) -> (T, Duration) {
 ///
 /// All rays are traced several times, in batches, and of each batch the shortest time counts: what else the machine does
 /// in between makes some batches longer, and none shorter. Between two times, all other rays have passed.
-fn nanoseconds(rays: &[Ray], nearest: impl Fn(&Ray) -> Option<(usize, Hit)>) -> f64 {
+fn nanoseconds<T>(rays: &[Ray], nearest: impl Fn(&Ray) -> T) -> f64 {
     const BATCH: usize = 500;
     const TIMES: usize = 4;
     let mut shortest = vec![Duration::MAX; rays.len().div_ceil(BATCH)];

@@ -1,5 +1,5 @@
-//! Spheres in a hierarchy of boxes: the crate obvhs builds it and goes through it, eyeray gives it the boxes and says what
-//! a ray meets.
+//! Spheres in a hierarchy of another library, for comparison: the crate obvhs builds it and goes through it, eyeray gives it the
+//! boxes and says what a ray meets.
 //!
 //! Of the two layouts that obvhs has, this is the one with eight compressed boxes to a node: the binary one was slower in
 //! clouds of every size.

@@ -17,7 +17,7 @@ use crate::spheres::filter::{can_be_met, is_in_reach};
 use crate::spheres::lanes::{LANES, Lanes};
 
 /// Up to so many spheres, as a multiple of the numbers in a vector, a scan takes no longer than the hierarchy.
-const FEW: usize = 16;
+const FEW: usize = 20;
 
 /// How many spheres a hierarchy has at most: the places of all, and of the lanes of the last leaf, are numbers of 32 bits.
 const MOST: usize = u32::MAX as usize - LANES;

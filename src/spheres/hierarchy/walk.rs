@@ -30,7 +30,6 @@ fn key(entry: f32, level_and_place: u32) -> Key {
 /// Where the ray enters the box.
 #[inline(always)]
 fn entry(key: Key) -> f32 {
-    #[expect(clippy::cast_possible_truncation, reason = "the upper half has 32 bits")]
     f32::from_bits((key >> 32) as u32)
 }
 

@@ -71,11 +71,12 @@ impl Lanes {
     /// than AVX2, and `--cfg eyeray_lanes="compiled"` all that the crate is not compiled for.
     #[inline(always)]
     pub(crate) fn best() -> Self {
-        #[cfg(all(feature = "std", target_arch = "x86_64", not(eyeray_lanes = "compiled")))]
-        {
-            #[cfg(not(eyeray_lanes = "avx2"))]
-            if let Some(avx512) = Avx512::detect() {
-                return Self(Set::Avx512(avx512));
+        #[cfg(all(feature = "std", target_arch = "x86_64"))]
+        if !cfg!(eyeray_lanes = "compiled") {
+            if !cfg!(eyeray_lanes = "avx2") {
+                if let Some(avx512) = Avx512::detect() {
+                    return Self(Set::Avx512(avx512));
+                }
             }
             if let Some(avx2) = Avx2::detect() {
                 return Self(Set::Avx2(avx2));

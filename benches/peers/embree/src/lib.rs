@@ -61,9 +61,8 @@ mod with {
         /// Builds the scene: x, y, z and radius of each sphere. `None` if that fails.
         pub fn build(self, spheres: &[[f32; 4]]) -> Option<Scene> {
             // SAFETY: the numbers are there, 4 a sphere, and are copied.
-            let built = unsafe {
-                c::spheres_build(self.0, spheres.as_flattened().as_ptr(), spheres.len())
-            };
+            let built =
+                unsafe { c::spheres_build(self.0, spheres.as_flattened().as_ptr(), spheres.len()) };
             (built != 0).then_some(Scene(self))
         }
     }
@@ -95,9 +94,7 @@ mod with {
         #[inline]
         pub fn occludes(&self, origin: [f32; 3], direction: [f32; 3], t: f32) -> bool {
             // SAFETY: the scene is built, and the arrays have the 3 numbers.
-            unsafe {
-                c::spheres_occluded(self.0.0, origin.as_ptr(), direction.as_ptr(), t) != 0
-            }
+            unsafe { c::spheres_occluded(self.0.0, origin.as_ptr(), direction.as_ptr(), t) != 0 }
         }
     }
 }
