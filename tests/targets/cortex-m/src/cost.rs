@@ -11,6 +11,7 @@ use core::fmt::Write;
 use core::hint::black_box;
 use core::ops::Range;
 use core::panic::PanicInfo;
+use core::slice;
 
 use cortex_m::Peripherals;
 use cortex_m::peripheral::SYST;
@@ -91,7 +92,9 @@ fn by_formula((ray, sphere): &Case<Vec3>) {
 
 #[inline(never)]
 fn by_nearest((ray, sphere): &Case<Vec3>) {
-    black_box(nearest(core::slice::from_ref::<Sphere>(sphere), ray, ALL));
+    // Of an unknown length, as slices are.
+    let slice: &[Sphere] = black_box(slice::from_ref(sphere));
+    black_box(nearest(slice, ray, ALL));
 }
 
 #[inline(never)]
