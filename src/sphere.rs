@@ -8,7 +8,7 @@ use crate::algebraic::Quadratic;
 use crate::arithmetic::pair::{Pair, two_difference};
 use crate::arithmetic::rounding::RoundDown;
 use crate::geometric::ClosestApproach;
-use crate::{Hit, Hittable, Ray, Vector};
+use crate::{Hit, Hittable, Ray, Vector, rejection};
 
 /// A sphere: a center and a radius.
 ///
@@ -144,5 +144,15 @@ impl<V: Vector> Hittable<V> for Sphere<V> {
     fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>> {
         // The faster of the two derivations where neither is in doubt.
         V::intersect::<Quadratic>(self, ray, range)
+    }
+
+    #[inline(always)]
+    fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
+        rejection::may_hit(self, ray, range.end)
+    }
+
+    #[inline(always)]
+    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32 {
+        rejection::may_hit_four(objects.each_ref(), ray, range.end)
     }
 }
