@@ -409,3 +409,20 @@ fn units_of_length_and_of_the_direction_change_nothing() {
         assert!(same, "2^{lengths} 2^{directions} {numbers:?}");
     }
 }
+
+#[test]
+fn clear_cases_are_not_in_doubt() {
+    let mut random = Random::new(8);
+    for (power, discriminant) in [(0.5, -1e-3), (0.5, -1e-14), (0.9, -1e-10)] {
+        for _ in 0..100 {
+            let numbers = setting(&mut random, Lie { power, discriminant });
+            for case in [Case::new::<Quadratic>(numbers), Case::new::<ClosestApproach>(numbers)] {
+                let Case { chord, radius_squared, .. } = case;
+                let nearest = nearest_ahead(&chord, radius_squared, in_f32::CLEAR, || None);
+                assert!(matches!(nearest, Nearest::Miss), "{numbers:?}");
+                let both = both(&chord, radius_squared, in_f32::CLEAR);
+                assert!(matches!(both, Both::Miss), "{numbers:?}");
+            }
+        }
+    }
+}
