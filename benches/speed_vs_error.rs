@@ -27,7 +27,7 @@ use measure::price::{self, questions_f32, questions_f64};
 use measure::{Kind, Measured, Method, page, report};
 
 /// Cases of a family in f32 and in f64, whose exact answers take longer, where the copies are refreshed.
-const ACCURACY_CASES: [usize; 2] = [1_000_000, 250_000];
+const ACCURACY_CASES: [usize; 2] = [200_000, 50_000];
 
 macro_rules! methods_of {
     ($function:ident, $module:ident, $vector:ident, $float:ident) => {

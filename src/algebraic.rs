@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use crate::arithmetic::number::{Number, Triple};
 use crate::root::chord::{Chord, Derivation};
-use crate::{Hit, Hittable, Ray, Sphere, Vector};
+use crate::{Hit, Hittable, Ray, Sphere, Vector, rejection};
 
 /// A sphere whose roots are found by the quadratic formula: the algebraic derivation.
 ///
@@ -42,6 +42,16 @@ impl<V: Vector> Hittable<V> for Algebraic<V> {
     #[inline(always)]
     fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>> {
         V::intersect::<Quadratic>(&self.0, ray, range)
+    }
+
+    #[inline(always)]
+    fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
+        rejection::may_hit(&self.0, ray, range.end)
+    }
+
+    #[inline(always)]
+    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32 {
+        rejection::may_hit_four(objects.each_ref().map(|Self(sphere)| sphere), ray, range.end)
     }
 }
 

@@ -129,7 +129,7 @@ impl<V: Vector> Hit<V> {
     /// that goes inwards starts strictly inside and hits its far wall, if the radius is at least 1,000 ulp of the coordinates of the
     /// point. The clearance follows from the bounds on all rounding errors. It is at most 32 times the sum of an ulp of the largest
     /// coordinate of the point and the smaller of 2⁻³² of the distance travelled and 2⁻²⁴ of the radius, and 2⁻⁴⁷ of the radius more
-    /// (with [`DVec3`](glam::DVec3) 2⁻⁶², 2⁻⁵³ and 2⁻¹⁰²). So on a ground of radius 1,000 or on a planet it is as fine as the
+    /// (with `DVec3` 2⁻⁶², 2⁻⁵³ and 2⁻¹⁰²). So on a ground of radius 1,000 or on a planet it is as fine as the
     /// point's own coordinates are. What is closer to the surface than that can be skipped: a ball that touches a ground at
     /// (100, 0, 0) is skipped by rays that leave the ground within some 10⁻⁴ of the contact.
     ///

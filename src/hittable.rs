@@ -1,7 +1,10 @@
 //! What a ray can meet.
 
+use core::hint::black_box;
+use core::iter;
 use core::ops::Range;
 
+use crate::rejection::HAS_VECTORS;
 use crate::{Hit, Ray, Vector};
 
 /// Anything that a ray can meet: one sphere, or many, or a shape of your own.
@@ -98,6 +101,32 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         self.intersect(ray, range).is_some()
     }
+
+    /// Returns `false` only if the ray certainly has no hit with `t` in `range`: a test that costs less than
+    /// [`intersect`](Self::intersect), for many objects of which most are missed.
+    ///
+    /// [`nearest`] and slices ask it first, and what it returns never changes their answer. Without an implementation it returns
+    /// `true`. A shape that consists of a sphere and more passes the question on to the sphere.
+    #[inline]
+    fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
+        let _ = (ray, range);
+        true
+    }
+
+    /// Returns which of four objects [may be hit](Self::may_hit), with the bit `1 << i` for `objects[i]`.
+    ///
+    /// Where a target has vectors of four numbers, [`nearest`] and slices ask four objects at a time.
+    #[inline]
+    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32
+    where
+        Self: Sized,
+    {
+        let mut near = 0;
+        for (place, object) in objects.iter().enumerate() {
+            near |= u32::from(object.may_hit(ray, range.clone())) << place;
+        }
+        near
+    }
 }
 
 /// What leads to something hittable is hittable as that is.
@@ -114,6 +143,12 @@ macro_rules! hittable_as_its_content {
             fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
                 let content: &$content = self;
                 content.occludes(ray, range)
+            }
+
+            #[inline]
+            fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
+                let content: &$content = self;
+                content.may_hit(ray, range)
             }
         }
     )+};
@@ -144,7 +179,9 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
 
     #[inline]
     fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
-        self.iter().any(|object| object.occludes(ray, range.clone()))
+        let mut near = Near::new(self);
+        iter::from_fn(|| near.next(ray, range.clone()))
+            .any(|(_, object)| object.occludes(ray, range.clone()))
     }
 }
 
@@ -171,8 +208,19 @@ pub fn nearest<V: Vector, H: Hittable<V>>(
     ray: &Ray<V>,
     range: Range<V::Scalar>,
 ) -> Option<(usize, Hit<V>)> {
-    let mut objects = objects.iter().enumerate();
-    nearest_among(ray, range, |_| objects.next())
+    let Range { start, mut end } = range;
+    let mut near = Near::new(objects);
+    let mut found = None;
+    while let Some((index, object)) = near.next(ray, start..end) {
+        // The ray from where the compiler does not know it: what only a hit needs of it is not computed ahead of the loop.
+        if let Some(hit) = object.intersect(black_box(ray), start..end) {
+            // The range is half open: what comes later must be strictly nearer.
+            end = hit.t;
+            found = Some((index, hit));
+        }
+    }
+    let (index, hit) = found?;
+    Some((index, hit))
 }
 
 /// The nearest of the objects that `next` gives, by ascending index, each time told where the range ends by now.
@@ -194,4 +242,43 @@ pub(crate) fn nearest_among<'a, V: Vector, H: Hittable<V> + 'a>(
     // Taken apart: else it is the caller's memory from the start, and each ray waits until the one before has written there.
     let (index, hit) = found?;
     Some((index, hit))
+}
+
+/// The objects that a ray may hit, and perhaps others, by ascending index.
+struct Near<'a, H> {
+    objects: &'a [H],
+    /// The first that has not been asked.
+    next: usize,
+    /// Of the four before it, those that may be hit and were not given yet: a bit for each.
+    near: u32,
+}
+
+impl<'a, H> Near<'a, H> {
+    #[inline(always)]
+    fn new(objects: &'a [H]) -> Self {
+        Self { objects, next: 0, near: 0 }
+    }
+
+    /// The next one that the ray may hit with t in the range.
+    #[inline(always)]
+    fn next<V: Vector>(&mut self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<(usize, &'a H)>
+    where
+        H: Hittable<V>,
+    {
+        while self.near == 0 {
+            let rest = self.objects.get(self.next..)?;
+            let four = if HAS_VECTORS { rest.first_chunk() } else { None };
+            let Some(four) = four else {
+                let place = rest.iter().position(|object| object.may_hit(ray, range.clone()))?;
+                let index = self.next + place;
+                self.next = index + 1;
+                return Some((index, self.objects.get(index)?));
+            };
+            self.near = H::may_hit_four(four, ray, range.clone());
+            self.next += 4;
+        }
+        let index = self.next - 4 + self.near.trailing_zeros() as usize;
+        self.near &= self.near - 1;
+        Some((index, self.objects.get(index)?))
+    }
 }

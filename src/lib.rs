@@ -108,6 +108,7 @@ mod geometric;
 mod hit;
 mod hittable;
 mod ray;
+mod rejection;
 mod root;
 mod sphere;
 #[cfg(feature = "alloc")]

@@ -8,7 +8,7 @@ use crate::algebraic::Quadratic;
 use crate::arithmetic::pair::{Pair, two_difference};
 use crate::arithmetic::rounding::RoundDown;
 use crate::geometric::ClosestApproach;
-use crate::{Hit, Hittable, Ray, Vector};
+use crate::{Hit, Hittable, Ray, Vector, rejection};
 
 /// A sphere: a center and a radius.
 ///
@@ -44,7 +44,7 @@ use crate::{Hit, Hittable, Ray, Vector};
 ///    exactly.
 /// 5. A ray is a half line: a hit is at the smallest root that, as returned, is finite, above 0 and in the range.
 /// 6. Each coordinate of [`Hit::point`] is off by at most 0.51 ulp of itself (1 ulp where it is subnormal) and the smaller of 2⁻³⁰
-///    of the distance travelled, t times the direction's length, and 2⁻²⁴ of the radius (with [`DVec3`](glam::DVec3) 2⁻⁶⁰ and
+///    of the distance travelled, t times the direction's length, and 2⁻²⁴ of the radius (with `DVec3` 2⁻⁶⁰ and
 ///    2⁻⁵³). [`Hit::normal`] is within 2 ulp of 1 of the outward unit normal there. At radius 0, where there is none, it points
 ///    back along the ray.
 /// 7. A ray of [`Hit::spawn`] never hits the surface that it leaves, if the radius is at least 1,000 ulp of the coordinates of the
@@ -144,5 +144,15 @@ impl<V: Vector> Hittable<V> for Sphere<V> {
     fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>> {
         // The faster of the two derivations where neither is in doubt.
         V::intersect::<Quadratic>(self, ray, range)
+    }
+
+    #[inline(always)]
+    fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
+        rejection::may_hit(self, ray, range.end)
+    }
+
+    #[inline(always)]
+    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32 {
+        rejection::may_hit_four(objects.each_ref(), ray, range.end)
     }
 }

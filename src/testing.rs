@@ -19,8 +19,6 @@ pub(crate) use dyadic::Dyadic;
 
 use crate::arithmetic::pair::Pair;
 
-pub(crate) use crate::arithmetic::pair::U;
-
 /// The exact value of a pair.
 pub(crate) fn exactly(pair: Pair) -> Dyadic {
     &Dyadic::exactly(pair.hi) + &Dyadic::exactly(pair.lo)

@@ -6,6 +6,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::arithmetic::rounding::RoundDown;
+use crate::rejection::{Bounds, Rejection};
 use crate::root::precision::Precision;
 
 /// A glam vector of three dimensions: [`Vec3`] or [`DVec3`].
@@ -26,6 +27,7 @@ use crate::root::precision::Precision;
 /// ```
 pub trait Vector:
     Precision
+    + Rejection
     + Copy
     + Debug
     + Default
@@ -66,6 +68,7 @@ pub trait Vector:
 /// The trait is sealed, as [`Vector`] is.
 pub trait Scalar:
     RoundDown
+    + Bounds
     + Copy
     + Debug
     + Display

@@ -303,16 +303,16 @@ fn lomont_coefficients_of_three_ranges() {
     }
 }
 
-/// demont-engine issue 256: a point on a planet that is off by a hand's breadth.
+/// demont-engine, issue 256: a point on a planet that is off by a hand's breadth.
 #[test]
 fn a_point_on_a_planet_is_as_fine_as_its_coordinates() {
     let planet = Sphere::new(vec3(0.0, -6.371e6, 0.0), 6.371e6);
     let ray = Ray::new(vec3(0.0, 2.0, 0.0), vec3(3000.0, -2.7, 100.0));
     let hit = planet.intersect(&ray, ALL).expect("the ray goes down");
-    assert!((hit.point.y - -0.714_976_684).abs() < 6e-8, "{}", hit.point);
+    assert!((f64::from(hit.point.y) - -0.714_976_684).abs() < 6e-8, "{}", hit.point);
 }
 
-/// tantalum issue 3, ByroRedux issue 649: light leaks where the offset of a ray skips what touches the surface.
+/// tantalum issue 3, `ByroRedux` issue 649: light leaks where the offset of a ray skips what touches the surface.
 #[test]
 fn what_stands_on_a_large_sphere_is_not_skipped() {
     let ground = Sphere::new(vec3(0.0, -1000.0, 0.0), 1000.0);

@@ -74,11 +74,7 @@ const GOALS: [Goal; 11] = [
     Goal { what: "from inside", families: &["inside"], at_most: [1.7, 5.0] },
     Goal { what: "huge spheres", families: &["huge"], at_most: [2.0, 7.0] },
     Goal { what: "distance/radius 1e2 to 1e4", families: &["far"], at_most: [2.0, 6.0] },
-    Goal {
-        what: "distance/radius 1e4 to 1e7 (f64: to 1e15)",
-        families: &["very far"],
-        at_most: [3.5, 10.0],
-    },
+    Goal { what: "distance/radius 1e4 to 1e7", families: &["very far"], at_most: [3.5, 10.0] },
     Goal { what: "tiny radii", families: &["tiny"], at_most: [2.5, 8.0] },
     Goal { what: "a planet's limb from orbit", families: &["planet's limb"], at_most: [3.5, 12.0] },
     Goal { what: "grazing the limb", families: &["grazing"], at_most: [2.5, 8.0] },

@@ -23,6 +23,7 @@ pub(crate) const V: f64 = U * U;
 /// of the sum of the high parts, at most u |a + b| more, by 2 v (|a| + |b|). That makes 3; the fourth is to spare.
 pub(crate) const SUM_ERROR: f64 = 4.0 * V;
 /// Of a product of pairs, in |a b|: Joldes, Muller and Popescu's algorithm 10, for which they prove 5.
+#[cfg(test)]
 pub(crate) const PRODUCT_ERROR: f64 = 5.0 * V;
 /// Of a quotient of pairs, in |a / b|.
 ///
@@ -113,6 +114,18 @@ pub(crate) fn compensated_dot(a: Triple<f64>, b: Triple<f64>) -> Pair {
 }
 
 impl Pair {
+    /// The product with a number, very nearly.
+    ///
+    /// Where the low part may have underflowed, it is left out: what is left of it depends on whether the machine has a fused
+    /// multiply-add.
+    #[inline(always)]
+    pub(crate) fn times(self, factor: f64) -> Self {
+        const SMALL: f64 = f64::from_bits((1023 - 900) << 52); // 2^-900
+        let product = two_product(self.hi, factor);
+        let low = if product.hi.abs() < SMALL { 0.0 } else { product.lo };
+        Self { hi: product.hi, lo: low + self.lo * factor }
+    }
+
     /// The square root of a positive pair: relative error at most [`ROOT_ERROR`].
     ///
     /// One step of Newton's from the square root of `hi`.

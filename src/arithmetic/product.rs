@@ -4,6 +4,9 @@ use core::cmp::Ordering;
 
 use super::wide::Wide;
 
+#[cfg(test)]
+mod tests;
+
 /// An integer of 256 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Product {

@@ -5,14 +5,13 @@ use core::ops::{Add, Div, Neg};
 use super::pair::{Pair, two_sum};
 use super::scaling::scale;
 
+#[cfg(test)]
+mod tests;
+
 /// The first 106 of the 128 bits of an integer with its highest bit set, as a number in 1..2.
 fn leading_pair(integer: u128) -> Pair {
     const HALF: u128 = (1 << 53) - 1;
-    #[expect(
-        clippy::cast_precision_loss,
-        clippy::cast_possible_truncation,
-        reason = "53 bits are exact"
-    )]
+    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
     let part = |bits: u128| (bits & HALF) as u64 as f64;
     two_sum(scale(part(integer >> 75), -52), scale(part(integer >> 22), -105))
 }
@@ -46,7 +45,7 @@ impl Wide {
         self.value.hi == 0.0
     }
 
-    /// The e of 2ᵉ ≤ |x| < 2ᵉ⁺¹, for the value x of a [`Sum`] that is not zero.
+    /// The e of 2ᵉ ≤ |x| < 2ᵉ⁺¹, for a value x that is not zero.
     pub(crate) fn exponent(self) -> i32 {
         self.exponent
     }

@@ -29,6 +29,9 @@ use crate::float::sqrt;
 use crate::geometric::ClosestApproach;
 use glam::DVec3;
 
+#[cfg(test)]
+mod tests;
+
 /// Of h, in P.
 const H_ERROR: f64 = 4.0 * U;
 /// Of o × d, in P.

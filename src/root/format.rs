@@ -10,6 +10,9 @@ use crate::arithmetic::pair::{Pair, U};
 use crate::arithmetic::rounding::RoundDown;
 use crate::arithmetic::scaling::integer_and_exponent;
 
+#[cfg(test)]
+mod tests;
+
 /// A format of floating-point numbers, all of which are `f64` too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Format {
@@ -51,8 +54,8 @@ impl Format {
         relative_error: f64,
         compare: impl FnOnce(Midpoint) -> Ordering,
     ) -> Option<f64> {
-        // Not where it is NaN either.
-        if !(relative_error < 0.25) {
+        // Nor where it is NaN.
+        if relative_error.is_nan() || relative_error > 0.25 {
             return None;
         }
         let error = t.hi.abs() * relative_error;

@@ -28,6 +28,9 @@ use super::chord::Chord;
 use super::crossing::Line;
 use crate::arithmetic::pair::{Pair, U, fast_two_sum, two_sum};
 
+#[cfg(test)]
+mod tests;
+
 /// The part `clear` of the first step: see there.
 pub(super) const CLEAR: f64 = 1.0 / 65536.0;
 

@@ -17,11 +17,14 @@ use crate::arithmetic::rounding::rounds_safely;
 use crate::float::sqrt;
 use crate::{Hit, Ray, Sphere};
 
+#[cfg(test)]
+pub(super) mod tests;
+
 /// The part `clear` of the plain step.
 ///
 /// The smaller, the more rays are decided there, but the less is known of each root; at 2⁻¹⁶ one easy case in 230 has a root too
 /// close to the middle of two `f32`.
-const CLEAR: f64 = 1.0 / 65536.0;
+pub(super) const CLEAR: f64 = 1.0 / 65536.0;
 
 /// The plain step's error in units of the last of 53 places, at most its relative error over 2⁻⁵³.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1,179,648")]
@@ -85,6 +88,7 @@ impl Setting {
 /// the case from afar.
 #[cold]
 #[inline(never)]
+#[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
 fn nearest_again(
     sphere: &Sphere,
     ray: &Ray,

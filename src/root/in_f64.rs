@@ -16,6 +16,9 @@ use crate::arithmetic::number::Triple;
 use crate::float::sqrt;
 use crate::{Hit, Ray, Sphere};
 
+#[cfg(test)]
+pub(super) mod tests;
+
 /// Whether a square, a or the larger of o·o and r², is between 2⁻⁴⁸⁰ and 2⁴⁸⁰: then no product of two of them overflows, and
 /// what underflows on the way is far below the error bounds.
 #[inline(always)]

@@ -21,6 +21,9 @@ use crate::arithmetic::pair::V;
 use crate::arithmetic::scaling::{exponent, scale};
 use crate::arithmetic::wide::Wide;
 
+#[cfg(test)]
+mod tests;
+
 /// Of a root, in itself: of a quotient of numbers, or of their sums without cancellation, each known to 2⁻⁹⁶.
 const ROOT_ERROR: f64 = 4096.0 * V;
 

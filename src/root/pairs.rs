@@ -24,11 +24,14 @@ use super::integers;
 use super::surface::power;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
-    COMPENSATED_DOT_ERROR, Pair, QUOTIENT_ERROR, ROOT_ERROR, SUM_ERROR, U, V, compensated_dot,
+    COMPENSATED_DOT_ERROR, Pair, QUOTIENT_ERROR, ROOT_ERROR, SUM_ERROR, V, compensated_dot,
     fast_two_sum, two_difference, two_product, two_sum,
 };
 use crate::arithmetic::scaling::{exponent, scale};
 use crate::float::sqrt;
+
+#[cfg(test)]
+mod tests;
 
 /// Of h, in P.
 pub(super) const H_ERROR: f64 = 16.0 * V;
@@ -83,13 +86,13 @@ impl Scaled {
     /// A root in units of the caller's, if that is exact.
     #[inline(always)]
     pub(super) fn unscaled_root(&self, t: Pair) -> Option<Pair> {
+        /// 2⁻⁹⁰⁰: far enough above the subnormal numbers for the low part to be whole.
+        const LEAST: f64 = f64::from_bits((1023 - 900) << 52);
         let e = self.length_exponent - self.direction_exponent;
         if e == 0 {
             return Some(t);
         }
         let unscaled = Pair { hi: scale(t.hi, e), lo: scale(t.lo, e) };
-        // 2⁻⁵⁰⁰ below the normal numbers' end, so that of the low part nothing is lost that counts.
-        const LEAST: f64 = f64::from_bits((1023 - 900) << 52);
         (unscaled.hi.is_finite() && unscaled.hi.abs() > LEAST).then_some(unscaled)
     }
 
@@ -279,14 +282,10 @@ impl Crossing {
 
         // From the foot of the closest approach, at (o × d) × d / a from the center, half a chord to either side.
         let along = if side == Side::Near { -self.half_chord } else { self.half_chord };
-        let times = |number: Pair, d: f64| {
-            let product = two_product(number.hi, d);
-            Pair { hi: product.hi, lo: product.lo + number.lo * d }
-        };
         let foot = moment(self.moment, d);
-        let offset = foot.zip(d, |foot, d| (foot + times(along, d)) / self.a);
+        let offset = foot.zip(d, |foot, d| without_dust((foot + along.times(d)) / self.a));
         let (start, exponent, step) = if is_close {
-            (line.origin, estimate.exponent, d.map(|d| times(estimate.t, d)))
+            (line.origin, estimate.exponent, d.map(|d| without_dust(estimate.t.times(d))))
         } else {
             (line.center, length_exponent, offset)
         };
@@ -296,16 +295,16 @@ impl Crossing {
             let low = sum.lo + scale(step.lo, exponent);
             if sum.hi.is_finite() { sum.hi + low } else { sum.hi }
         });
-        let normal = offset.map(|offset| without_dust(offset.hi / radius));
+        let normal = offset.map(|offset| offset.hi / radius);
         Some(Found { t, point: point.into(), normal: normal.into() })
     }
 }
 
-/// A coordinate of a unit vector, zero where it is so small that the low part of a product underflowed on the way: what is left
-/// of such a part depends on whether the machine has a fused multiply-add.
+/// A coordinate of a vector of about unit length, zero where it is so small that the low part of a product underflowed on the way:
+/// what is left of such a part depends on whether the machine has a fused multiply-add.
 #[inline(always)]
-fn without_dust(coordinate: f64) -> f64 {
+fn without_dust(coordinate: Pair) -> Pair {
     const DUST: f64 = f64::from_bits((1023 - 800) << 52); // 2^-800
     // A zero of the same sign.
-    if coordinate.abs() < DUST { coordinate * 0.0 } else { coordinate }
+    if coordinate.hi.abs() < DUST { Pair::from(coordinate.hi * 0.0) } else { coordinate }
 }

@@ -40,6 +40,9 @@ use super::chord::Chord;
 use crate::arithmetic::pair::U;
 use crate::float::sqrt;
 
+#[cfg(test)]
+mod tests;
+
 /// Of the discriminant, in a m.
 pub(super) const DISCRIMINANT_ERROR: f64 = 21.0 * U;
 

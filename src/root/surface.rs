@@ -15,6 +15,9 @@ use crate::arithmetic::pair::{
     Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum,
 };
 
+#[cfg(test)]
+mod tests;
+
 /// The least 2 s², in a m.
 const CLEAR: f64 = 1.0 / 65536.0;
 
@@ -115,10 +118,7 @@ pub(super) fn small_root(
 #[inline(always)]
 pub(super) fn hit(line: Line, o: Triple<Pair>, root: Pair, t: f64) -> Found {
     let d = Triple::from(line.direction);
-    let step = d.map(|d| {
-        let product = two_product(root.hi, d);
-        Pair { hi: product.hi, lo: product.lo + root.lo * d }
-    });
+    let step = d.map(|d| root.times(d));
     let sum = |start: Pair, step: Pair| {
         let sum = two_sum(start.hi, step.hi);
         sum.hi + (sum.lo + (start.lo + step.lo))

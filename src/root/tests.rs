@@ -1,14 +1,15 @@
-use super::integers::*;
-use super::pairs::*;
+use glam::{DVec3, Vec3};
+
+use super::format::PointTolerance;
 use super::*;
-use crate::arithmetic::pair::V;
+use crate::arithmetic::pair::U;
 use crate::arithmetic::scaling::scale;
-use crate::chord::Chord;
 use crate::testing::{
-    Dyadic, ExactChord, Lie, Random, exactly, nearest, part_of_bound, search, setting,
+    Dyadic, ExactChord, Lie, Neighbors, Random, nearest, part_of_bound, setting, total,
 };
 
-fn line(numbers: [f64; 10]) -> Line {
+/// The line and the sphere of the coordinates of center, origin and direction, and the radius.
+pub(super) fn line(numbers: [f64; 10]) -> Line {
     let [cx, cy, cz, px, py, pz, dx, dy, dz, radius] = numbers;
     Line {
         center: DVec3::new(cx, cy, cz),
@@ -18,272 +19,207 @@ fn line(numbers: [f64; 10]) -> Line {
     }
 }
 
-fn in_pairs(numbers: [f64; 10]) -> Scaled {
-    Scaled::new(&Exact::new(&line(numbers))).expect("numbers near 1 fit")
+/// Its coordinates rounded to `f32`.
+#[expect(clippy::cast_possible_truncation, reason = "rounding is what this does")]
+pub(super) fn single(numbers: [f64; 10]) -> [f64; 10] {
+    numbers.map(|number| (number as f32).into())
 }
 
-/// What part of its bound an error takes, the bound being a part of `size`.
-fn part(computed: Pair, exact: &Dyadic, bound: f64, size: &Dyadic) -> f64 {
-    part_of_bound(&exactly(computed), exact, &(&Dyadic::exactly(bound) * size))
+/// The exact length of a vector, to 80 bits.
+pub(super) fn length(vector: &[Dyadic; 3]) -> Dyadic {
+    total([0, 1, 2].map(|axis| &vector[axis] * &vector[axis])).square_root(80)
 }
 
-const ANYWHERE: [Lie; 5] = [
+pub(super) fn difference(a: &[Dyadic; 3], b: &[Dyadic; 3]) -> [Dyadic; 3] {
+    [0, 1, 2].map(|axis| &a[axis] - &b[axis])
+}
+
+/// Direction d, origin p and o = c - p.
+pub(super) struct ExactLine {
+    pub(super) d: [Dyadic; 3],
+    pub(super) p: [Dyadic; 3],
+    pub(super) o: [Dyadic; 3],
+}
+
+impl ExactLine {
+    pub(super) fn new(numbers: [f64; 10]) -> Self {
+        let [cx, cy, cz, px, py, pz, dx, dy, dz, _] = numbers.map(Dyadic::exactly);
+        let p = [px, py, pz];
+        Self { d: [dx, dy, dz], o: difference(&[cx, cy, cz], &p), p }
+    }
+
+    /// o × d.
+    pub(super) fn moment(&self) -> [Dyadic; 3] {
+        let Self { o, d, .. } = self;
+        [(1, 2), (2, 0), (0, 1)].map(|(j, k): (usize, usize)| &(&o[j] * &d[k]) - &(&o[k] * &d[j]))
+    }
+
+    /// P = |o| |d|.
+    pub(super) fn reach(&self) -> Dyadic {
+        &length(&self.o) * &length(&self.d)
+    }
+
+    /// t d - o.
+    pub(super) fn offset(&self, t: &Dyadic) -> [Dyadic; 3] {
+        [0, 1, 2].map(|axis| &(t * &self.d[axis]) - &self.o[axis])
+    }
+}
+
+/// What part of what is allowed the error of the point takes, and of the normal, at that exact root: in each coordinate, the
+/// tolerance and the rounding.
+pub(super) fn parts_of_tolerance(
+    numbers: [f64; 10],
+    root: &Dyadic,
+    found: &Found,
+    tolerance: PointTolerance,
+) -> [f64; 2] {
+    let exact = ExactLine::new(numbers);
+    let radius = Dyadic::exactly(numbers[9]);
+    let offset = exact.offset(root);
+    let travelled = &root.clone().abs() * &length(&exact.d);
+    let of_radius = &Dyadic::exactly(tolerance.of_radius) * &radius;
+    let of_distance = &Dyadic::exactly(tolerance.of_distance) * &travelled;
+    let allowed = of_radius.min(of_distance);
+    let part = |found: f64, exact: &Dyadic, allowed: &Dyadic, ulps: f64| {
+        let half_ulp = (f64::from_bits(found.abs().to_bits() + 1) - found.abs()) / 2.0;
+        let allowed = allowed + &Dyadic::exactly(half_ulp * ulps);
+        part_of_bound(&Dyadic::exactly(found), exact, &allowed)
+    };
+    let point = [0, 1, 2].map(|axis: usize| {
+        let exact = &exact.p[axis] + &(root * &exact.d[axis]);
+        part(found.point[axis], &exact, &allowed, 1.0)
+    });
+    // Rounded themselves, and by the division by the radius.
+    let normal = [0, 1, 2].map(|axis: usize| {
+        let exact = offset[axis].divided_by(&radius, 200);
+        part(found.normal[axis], &exact, &Dyadic::exactly(tolerance.of_radius), 2.0)
+    });
+    [point, normal].map(|parts| parts.into_iter().fold(0.0, f64::max))
+}
+
+/// Both roots by the careful steps, `None` for a miss.
+fn both(numbers: [f64; 10], format: Format) -> Option<[f64; 2]> {
+    let line = line(numbers);
+    carefully(line, &line, format, &Question::Both)?.both()
+}
+
+fn nearest_ahead(numbers: [f64; 10], format: Format) -> Option<Found> {
+    let line = line(numbers);
+    carefully(line, &line, format, &Question::Nearest(0.0..f64::INFINITY))?.nearest()
+}
+
+fn rounded(format: Format, exact: &Dyadic) -> f64 {
+    #[expect(clippy::cast_possible_truncation, reason = "a guess")]
+    match format {
+        Format::F32 => nearest(exact, exact.approximately() as f32).into(),
+        Format::F64 => nearest(exact, exact.approximately()),
+    }
+}
+
+const ANYWHERE: [Lie; 8] = [
     Lie { power: 0.999, discriminant: -0.01 },
     Lie { power: 0.99, discriminant: 1e-6 },
     Lie { power: 0.1, discriminant: 1e-3 },
+    Lie { power: 1e-14, discriminant: 1e-14 },
     Lie { power: -1e-20, discriminant: 0.5 },
+    Lie { power: 1e-16, discriminant: 0.5 },
+    Lie { power: 0.5, discriminant: 1e-31 },
     Lie { power: -0.9, discriminant: 0.95 },
 ];
 
-/// As little clear of doubt as may be.
-const ALMOST_IN_DOUBT: [Lie; 4] = [
-    Lie { power: 1e-14, discriminant: 1e-14 },
-    Lie { power: -1e-14, discriminant: 1.1e-14 },
-    Lie { power: 0.9, discriminant: 1e-14 },
-    Lie { power: 1e-14, discriminant: 0.5 },
-];
-
-fn search_settings(
-    what: &str,
-    lies: &[Lie],
-    part: impl Fn(&ExactChord, [f64; 10]) -> Option<f64>,
-) -> f64 {
-    let start = |random: &mut Random| {
-        let lie = lies[random.below(lies.len())];
-        setting(random, lie)
-    };
-    search(what, 100, 400, start, |numbers| part(&ExactChord::new(numbers), numbers))
-}
-
 #[test]
-fn the_constants_are_those_of_the_analysis() {
-    assert_eq!(
-        [DOT_ERROR, POWER_ERROR, MOMENT_SQUARED_ERROR, DISCRIMINANT_ERROR, ROOT_QUOTIENT_ERROR],
-        [13.0, 21.0, 39.0, 65.0, 32.0].map(|count| count * V)
-    );
-}
-
-#[test]
-fn chords_in_pairs_keep_their_bounds() {
-    let dots = |exact: &ExactChord, numbers| {
-        let (Chord { a, h, distance_squared, .. }, radius_squared) = in_pairs(numbers).chord();
-        assert_eq!(exactly(radius_squared), exact.radius_squared(), "r² is exactly a pair");
-        let reach = (&exact.a * &exact.distance_squared).square_root(80);
-        let parts = [
-            part(a, &exact.a, DOT_ERROR, &exact.a),
-            part(h, &exact.h, DOT_ERROR, &reach),
-            part(distance_squared, &exact.distance_squared, DOT_ERROR, &exact.distance_squared),
-        ];
-        parts.into_iter().reduce(f64::max)
-    };
-    assert!(search_settings("dot products in pairs", &ANYWHERE, dots) > 0.125);
-
-    let power = |exact: &ExactChord, numbers| {
-        let (chord, _) = in_pairs(numbers).chord();
-        Some(part(chord.power, &exact.power, POWER_ERROR, &exact.larger()))
-    };
-    assert!(search_settings("power in pairs", &ANYWHERE, power) > 0.125);
-
-    let discriminant = |exact: &ExactChord, numbers| {
-        let (chord, _) = in_pairs(numbers).chord();
-        let size = &exact.a * &exact.larger();
-        Some(part(chord.discriminant, &exact.discriminant, DISCRIMINANT_ERROR, &size))
-    };
-    assert!(search_settings("discriminant in pairs", &ANYWHERE, discriminant) > 0.0625);
-}
-
-/// The larger part that one of the roots takes of its bound, after a look at whether hit or miss is right.
-fn roots(exact: &ExactChord, numbers: [f64; 10]) -> Option<f64> {
-    let estimate = match in_pairs(numbers).estimate() {
-        InPairs::Doubt => return None,
-        InPairs::Miss => {
-            assert!(exact.discriminant.is_negative(), "the line hits: {numbers:?}");
-            return Some(0.0);
-        }
-        InPairs::Hit(estimate) => estimate,
-    };
-    let exact_roots = exact.roots().expect("the line misses");
-    let mut computed = estimate.roots;
-    if computed[1].0.hi < computed[0].0.hi {
-        computed.swap(0, 1);
-    }
-    let parts = [0, 1].map(|side: usize| {
-        let (t, relative_error) = computed[side];
-        part(t, &exact_roots[side], relative_error, &exact_roots[side].clone().abs())
-    });
-    Some(parts[0].max(parts[1]))
-}
-
-#[test]
-fn roots_in_pairs_keep_their_bound() {
-    let worst = search_settings("roots in pairs", &ALMOST_IN_DOUBT, roots);
-    assert!(worst > 0.0625);
-}
-
-#[test]
-fn half_chords_in_pairs_keep_their_bound() {
-    let half_chord = |exact: &ExactChord, numbers| {
-        let InPairs::Hit(Estimate { half_chord, sum_error, .. }) = in_pairs(numbers).estimate()
-        else {
-            return None;
-        };
-        let exact = exact.discriminant.square_root(300);
-        Some(part(half_chord, &exact, sum_error, &Dyadic::new(1, 0)))
-    };
-    assert!(search_settings("half the chord in pairs", &ALMOST_IN_DOUBT, half_chord) > 0.04);
-}
-
-/// How far off the normals are, coordinate by coordinate, in units of their rounding, below 1, and the error that was let pass.
-fn normals(exact: &ExactChord, numbers: [f64; 10], normals: [DVec3; 2], let_pass: f64) -> f64 {
-    let bound = Dyadic::exactly(f64::EPSILON / 4.0 + let_pass);
-    let [cx, cy, cz, px, py, pz, dx, dy, dz, radius] = numbers.map(Dyadic::exactly);
-    let mut worst = 0.0_f64;
-    for (t, normal) in exact.roots().expect("this hits").iter().zip(normals) {
-        for ((c, p, d), found) in
-            [(&cx, &px, &dx), (&cy, &py, &dy), (&cz, &pz, &dz)].into_iter().zip(normal.to_array())
-        {
-            let expected = (&(t * d) - &(c - p)).divided_by(&radius, 200);
-            worst = worst.max(part_of_bound(&Dyadic::exactly(found), &expected, &bound));
-        }
-    }
-    worst
-}
-
-#[test]
-fn normals_keep_their_bound() {
-    // Small and far away, up to where pairs are no longer good enough.
-    let lies = [42, 44, 46, 49, 50, 51].map(|places| {
-        let radius_squared = 2_f64.powi(-places);
-        Lie { power: 1.0 - radius_squared, discriminant: radius_squared / 8.0 }
-    });
-    let in_pairs = |exact: &ExactChord, numbers: [f64; 10]| match in_pairs(numbers).crossings() {
-        InPairs::Hit(Crossings::<f64> { normals: found, .. }) => {
-            Some(normals(exact, numbers, found, f64::NORMAL_ERROR))
-        }
-        _ => None,
-    };
-    assert!(search_settings("normals from pairs", &lies, in_pairs) > 0.5);
-
-    let exactly = |exact: &ExactChord, numbers: [f64; 10]| {
-        let found = Exact::new(&line(numbers)).crossings::<f64>()?.normals;
-        Some(normals(exact, numbers, found, f64::EPSILON * f64::EPSILON))
-    };
-    assert!(search_settings("exact normals", &lies[..1], exactly) > 0.5);
-}
-
-#[test]
-fn what_pairs_are_certain_of_is_right() {
-    let mut random = Random::new(1);
-    let (mut doubts, count) = (0, 2000);
-    for _ in 0..count {
-        let [x, y] = [0; 2].map(|_| 2_f64.powi(random.integer(-106..=-30)));
-        let lie = match random.below(3) {
-            0 => Lie { power: x, discriminant: y },
-            1 => Lie { power: -x, discriminant: x.max(y) },
-            _ => Lie { power: 0.5, discriminant: -y },
-        };
+fn careful_answers_are_the_exact_ones_rounded() {
+    let mut random = Random::new(6);
+    for round in 0..2000 {
+        let lie = ANYWHERE[random.below(ANYWHERE.len())];
         let numbers = setting(&mut random, lie);
-        match roots(&ExactChord::new(numbers), numbers) {
-            Some(part) => assert!(part <= 1.0, "{numbers:?}"),
-            None => doubts += 1,
+        let (format, numbers) =
+            if round % 2 == 0 { (Format::F64, numbers) } else { (Format::F32, single(numbers)) };
+        let expected = ExactChord::new(numbers).roots();
+        let rounded =
+            expected.as_ref().map(|roots| [0, 1].map(|i: usize| rounded(format, &roots[i])));
+        assert_eq!(both(numbers, format), rounded, "{format:?} {numbers:?}");
+        let ahead = rounded.and_then(|roots| roots.iter().position(|t| *t > 0.0));
+        let found = nearest_ahead(numbers, format);
+        assert_eq!(found.map(|found| found.t), ahead.map(|side| rounded.unwrap()[side]));
+        if let (Some(found), Some(roots), Some(side)) = (found, expected, ahead) {
+            let tolerance = format.point_tolerance();
+            let parts = parts_of_tolerance(numbers, &roots[side], &found, tolerance);
+            assert!(parts.iter().all(|part| *part <= 1.0), "{parts:?} {format:?} {numbers:?}");
         }
     }
-    assert!(doubts < count / 2, "{doubts} of {count} in doubt");
 }
 
 #[test]
-fn pairs_are_not_certain_of_tangents() {
-    // Tangents with the direction (3, 4, 0) and the normal (-4, 3, 0), moved by what pairs can hardly see.
-    let mut random = Random::new(5);
-    let (mut doubts, count) = (0, 2000);
-    for _ in 0..count {
-        let long = (random.mantissa() * 2_f64.powi(49)).round();
-        let radius = (random.mantissa() * 2_f64.powi(47)).round();
-        let along = f64::from(random.integer(-1000..=1000)) * 2_f64.powi(37);
-        let aside = random.float(-60..=-40);
-        let center = [3.0 * along - 4.0 * radius, 4.0 * along + 3.0 * radius];
-        let direction = [3.0 * long, 4.0 * long];
-        let numbers = [
-            center[0],
-            center[1],
-            0.0,
-            0.0,
-            aside,
-            0.0,
-            direction[0],
-            direction[1],
-            0.0,
-            5.0 * radius,
-        ];
-        match roots(&ExactChord::new(numbers), numbers) {
-            Some(part) => assert!(part <= 1.0, "{numbers:?}"),
-            None => doubts += 1,
-        }
-    }
-    assert!((count / 5..count * 4 / 5).contains(&doubts), "{doubts} of {count} in doubt");
-}
-
-#[test]
-fn lines_of_any_size_are_brought_near_1() {
+fn lines_of_any_size_have_the_same_roots() {
     let mut random = Random::new(2);
-    for _ in 0..1000 {
-        let numbers = setting(&mut random, ANYWHERE[2]);
+    for _ in 0..500 {
+        let lie = ANYWHERE[1 + random.below(ANYWHERE.len() - 1)];
+        let numbers = setting(&mut random, lie);
         let (lengths, directions) = (random.integer(-900..=900), random.integer(-900..=900));
         let mut scaled = numbers;
         for (index, number) in scaled.iter_mut().enumerate() {
             *number = scale(*number, if (6..9).contains(&index) { directions } else { lengths });
         }
-        let (InPairs::Hit(here), InPairs::Hit(there)) =
-            (in_pairs(numbers).estimate(), in_pairs(scaled).estimate())
-        else {
-            panic!("both hit: {numbers:?}");
+        let expected = both(numbers, Format::F64)
+            .map(|roots| roots.map(|root| scale(root, lengths - directions)));
+        let Some(expected) = expected else { continue };
+        if expected.iter().any(|root| !root.is_normal()) {
+            continue;
+        }
+        assert_eq!(
+            both(scaled, Format::F64),
+            Some(expected),
+            "2^{lengths} 2^{directions} {numbers:?}"
+        );
+    }
+}
+
+#[test]
+fn roots_at_the_ends_of_the_range_are_the_nearest() {
+    let mut random = Random::new(4);
+    for _ in 0..300 {
+        let lie = ANYWHERE[1 + random.below(ANYWHERE.len() - 1)];
+        let mut numbers = setting(&mut random, lie);
+        // Subnormal roots, and roots next to infinity.
+        let e = if random.below(2) == 0 {
+            -1022 - random.integer(0..=52)
+        } else {
+            1023 + random.integer(-2..=1)
         };
-        let there_exponent = in_pairs(scaled).root_exponent;
-        for (here, there) in here.roots.into_iter().zip(there.roots) {
-            let there = exactly(there.0).scaled(i64::from(there_exponent + directions - lengths));
-            assert_eq!(exactly(here.0), there, "2^{lengths} and 2^{directions} of {numbers:?}");
+        for (index, number) in numbers.iter_mut().enumerate() {
+            *number = scale(*number, if (6..9).contains(&index) { -e / 2 } else { e - e / 2 });
         }
+        let exact = ExactChord::new(numbers).roots();
+        let expected = exact.map(|roots| [0, 1].map(|i: usize| rounded(Format::F64, &roots[i])));
+        assert_eq!(both(numbers, Format::F64), expected, "{numbers:?}");
+        let ahead =
+            expected.and_then(|roots| roots.into_iter().find(|t| *t > 0.0 && t.is_finite()));
+        assert_eq!(nearest_ahead(numbers, Format::F64).map(|found| found.t), ahead, "{numbers:?}");
     }
 }
 
 #[test]
-fn exact_roots_are_the_nearest() {
-    let mut random = Random::new(3);
-    for _ in 0..100 {
-        let lie = Lie { power: 2_f64.powi(-random.integer(1..=50)), discriminant: 0.25 };
-        let numbers = setting(&mut random, lie);
-        let exact = Exact::new(&line(numbers));
-        let expected = ExactChord::new(numbers).roots().expect("this hits");
-        let found: Crossings<f64> = exact.crossings().expect("this hits");
-        for ((side, found), expected) in
-            [Side::Near, Side::Far].into_iter().zip(found.t).zip(&expected)
-        {
-            assert_eq!(found, nearest(expected, found));
-            for m in [0.0, found, -found, 2.0 * found, found * 0.75] {
-                assert_eq!(exact.compare_root(side, m), expected.cmp(&Dyadic::exactly(m)), "{m}");
-            }
-        }
-    }
-}
-
-#[test]
-fn roots_are_compared_exactly_with_numbers_on_and_beside_them() {
-    // Roots 3 and 7 along x, and a tangent at 5.
-    let compare = |radius: f64, height: f64, side, m| {
-        let numbers = [5.0, height, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, radius];
-        Exact::new(&line(numbers)).compare_root(side, m)
-    };
-    let tiny = 1e-300;
-    for (side, root) in [(Side::Near, 3.0), (Side::Far, 7.0)] {
-        assert_eq!(compare(2.0, 0.0, side, root), Ordering::Equal);
-        for m in [-1.0, 2.9, 3.1, 5.0, 6.9, 7.1] {
-            assert_eq!(compare(2.0, 0.0, side, m), root.partial_cmp(&m).unwrap(), "{root} and {m}");
-        }
-        // A little beside the axis, the chord is a little shorter.
-        let inwards = if root < 5.0 { Ordering::Greater } else { Ordering::Less };
-        assert_eq!(compare(2.0, tiny, side, root), inwards);
-        assert_eq!(compare(2.0, 2.0, side, 5.0), Ordering::Equal);
-        assert_eq!(compare(2.0, 2.0, side, 5.0 + f64::EPSILON * 4.0), Ordering::Less);
+fn a_range_is_half_open_and_may_begin_behind_the_first_root() {
+    // Roots 3 and 7.
+    let numbers = [5.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 2.0];
+    let line = line(numbers);
+    for format in [Format::F32, Format::F64] {
+        let nearest = |range: Range<f64>| {
+            carefully(line, &line, format, &Question::Nearest(range))?
+                .nearest()
+                .map(|found| found.t)
+        };
+        assert_eq!(nearest(0.0..f64::INFINITY), Some(3.0));
+        assert_eq!(nearest(3.0..4.0), Some(3.0));
+        assert_eq!(nearest(0.0..3.0), None);
+        assert_eq!(nearest(3.5..f64::INFINITY), Some(7.0));
+        assert_eq!(nearest(7.0..f64::INFINITY), Some(7.0));
+        assert_eq!(nearest(3.5..7.0), None);
+        assert_eq!(nearest(f64::NAN..f64::INFINITY), None);
+        let question = Question::Nearest(0.0..9.0);
+        assert!(carefully(line, &line, format, &question).unwrap().both().is_none());
+        assert!(carefully(line, &line, format, &Question::Both).unwrap().nearest().is_none());
     }
 }
 
@@ -297,24 +233,18 @@ fn roots_that_only_exact_numbers_tell_apart_ascend() {
     ] {
         let direction = DVec3::new(x, y, z);
         let origin = direction * (-f64::EPSILON / 2.0);
-        let line = Line { center: direction * approach, origin, direction, radius };
-        let Crossings { t, .. } = crossings::<f64>(&line).expect("this goes through the center");
-        assert!(t[0] <= t[1], "{direction} times {approach} has {t:?}");
-    }
-}
-
-#[test]
-fn roots_ascend() {
-    let mut random = Random::new(6);
-    for _ in 0..200 {
-        let lie = ANYWHERE[1 + random.below(4)];
-        let numbers = setting(&mut random, lie);
-        let expected = ExactChord::new(numbers).roots().expect("this hits");
-        let found = crossings::<f64>(&line(numbers)).expect("this hits").t;
-        for (found, expected) in found.into_iter().zip(&expected) {
-            let error = (&Dyadic::exactly(found) - expected).abs();
-            assert!(error <= &Dyadic::exactly(f64::EPSILON) * &expected.clone().abs());
+        let [center, origin, direction] =
+            [direction * approach, origin, direction].map(|v| v.to_array());
+        let mut numbers = [radius; 10];
+        for (number, coordinate) in
+            numbers.iter_mut().zip([center, origin, direction].into_iter().flatten())
+        {
+            *number = coordinate;
         }
+        let exact = ExactChord::new(numbers).roots().expect("this goes through the center");
+        let expected = [0, 1].map(|i: usize| rounded(Format::F64, &exact[i]));
+        assert!(expected[0] <= expected[1]);
+        assert_eq!(both(numbers, Format::F64), Some(expected), "{numbers:?}");
     }
 }
 
@@ -325,31 +255,81 @@ fn a_root_next_to_the_midpoint_of_two_f32_is_no_tie() {
         (1e-30, 16_777_215.0, 16_777_215.0),
         (1e-9, 16_777_215.0, 16_777_215.0),
     ] {
-        let line = Line {
-            center: DVec3::new(beside, 0.0, 16_777_215.0),
-            origin: DVec3::ZERO,
-            direction: DVec3::Z,
-            radius: 0.5,
-        };
-        assert_eq!(crossings::<f32>(&line).map(|crossings| crossings.t), Some([near, far]));
+        let numbers = [beside, 0.0, 16_777_215.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.5];
+        assert_eq!(both(numbers, Format::F32), Some([near, far]));
+    }
+}
+
+#[test]
+fn ties_of_f64_go_to_even() {
+    // A sphere of radius 2^-53 whose center is 1.5 along an axis, and the same a little beside the axis.
+    let radius = U;
+    for beside in [0.0, 1e-1, 1e-5, 1e-12].map(|part: f64| part * radius) {
+        for center in [1.5, 1.5 + f64::EPSILON, 1.75] {
+            let numbers = [center, beside, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, radius];
+            let exact = ExactChord::new(numbers).roots().expect("this hits");
+            let expected = [0, 1].map(|i: usize| rounded(Format::F64, &exact[i]));
+            assert_eq!(both(numbers, Format::F64), Some(expected), "{numbers:?}");
+            let expected = expected[0];
+            assert!(beside == 0.0 || expected.is_even() || center > 1.6 || expected == center);
+            assert_eq!(nearest_ahead(numbers, Format::F64).map(|found| found.t), Some(expected));
+        }
+    }
+}
+
+#[test]
+fn a_sphere_of_no_radius_is_hit_exactly_at_its_center() {
+    for format in [Format::F32, Format::F64] {
+        let numbers = [3.0, 6.0, -9.0, 0.0, 0.0, 0.0, 1.0, 2.0, -3.0, 0.0];
+        assert_eq!(both(numbers, format), Some([3.0; 2]));
+        let found = nearest_ahead(numbers, format).expect("through the center");
+        assert_eq!((found.t, found.point), (3.0, DVec3::new(3.0, 6.0, -9.0)));
+        let back = -DVec3::new(1.0, 2.0, -3.0).normalize();
+        assert!((found.normal - back).length() < 1e-15, "back along the ray");
+        let mut beside = numbers;
+        beside[0] += 1e-6;
+        assert_eq!(both(single(beside), format), None);
     }
 }
 
 #[test]
 fn what_is_no_ray_or_no_sphere_is_not_hit() {
     let good = [5.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 2.0];
-    assert!(crossings::<f64>(&line(good)).is_some());
-    for index in 0..10 {
-        for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+    for format in [Format::F32, Format::F64] {
+        let check = |numbers: [f64; 10]| {
+            assert!(both(numbers, format).is_none(), "{numbers:?}");
+            assert!(nearest_ahead(numbers, format).is_none(), "{numbers:?}");
+        };
+        assert!(both(good, format).is_some() && nearest_ahead(good, format).is_some());
+        for index in 0..10 {
+            for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let mut numbers = good;
+                numbers[index] = odd;
+                check(numbers);
+            }
+        }
+        for (index, number) in [(9, -2.0), (6, 0.0)] {
             let mut numbers = good;
-            numbers[index] = odd;
-            assert!(crossings::<f64>(&line(numbers)).is_none(), "{numbers:?}");
+            numbers[index] = number;
+            check(numbers);
+            // The same from inside.
+            numbers[0] = 0.5;
+            check(numbers);
         }
     }
-    let mut numbers = good;
-    numbers[9] = -2.0;
-    assert!(crossings::<f64>(&line(numbers)).is_none());
-    let mut numbers = good;
-    numbers[6] = 0.0;
-    assert!(crossings::<f64>(&line(numbers)).is_none());
+}
+
+#[test]
+fn both_precisions_have_their_doors() {
+    let sphere = Sphere::new(Vec3::new(5.0, 0.0, 0.0), 2.0);
+    let ray = Ray::new(Vec3::ZERO, Vec3::X);
+    let line = Line::new(&sphere, &ray);
+    let range = || 0.0..f64::INFINITY;
+    assert_eq!(
+        nearest_carefully_f32(&sphere, &ray, &line, range()).map(|found| found.t),
+        Some(3.0)
+    );
+    assert_eq!(both_carefully_f32(&sphere, &ray, &line), Some([3.0, 7.0]));
+    assert_eq!(nearest_carefully_f64(&line, range()).map(|found| found.t), Some(3.0));
+    assert_eq!(both_carefully_f64(&line), Some([3.0, 7.0]));
 }

@@ -76,7 +76,7 @@ pub const FAMILIES: &[Family] = &[
     ),
     family!("on the surface", on_the_surface, "origin on the surface, as near as floats get"),
     family!(
-        "on the surface exactly",
+        "on the surface, exactly",
         exactly_on_the_surface,
         "origin an exact point of the surface: c = 0"
     ),

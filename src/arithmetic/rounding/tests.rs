@@ -1,5 +1,5 @@
 use super::*;
-use crate::testing::{Dyadic, Random, U, nearest};
+use crate::testing::{Dyadic, Random};
 
 /// Halfway between two neighboring `f32`: of any exponent of theirs, also beyond the largest and below the smallest.
 fn midpoint(random: &mut Random) -> f64 {
@@ -27,11 +27,6 @@ fn step(x: f64, steps: i64) -> f64 {
     f64::from_bits(x.to_bits().wrapping_add_signed(steps))
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "a guess")]
-fn nearest_f32(exact: &Dyadic) -> f32 {
-    nearest(exact, exact.approximately() as f32)
-}
-
 #[test]
 fn what_rounds_safely_is_away_from_midpoints() {
     const MARGIN: u32 = 1000;
@@ -55,64 +50,6 @@ fn what_rounds_safely_is_away_from_midpoints() {
         }
     }
     assert!((5_000..15_000).contains(&safe), "{safe}");
-}
-
-#[test]
-fn rounding_within_an_error_is_right_or_undecided() {
-    let mut random = Random::new(2);
-    let mut decided = 0;
-    for _ in 0..20_000 {
-        let t = step(midpoint(&mut random), steps(&mut random));
-        let relative_error = 2_f64.powi(-random.integer(25..=110)) * random.mantissa();
-        let error = (&Dyadic::exactly(relative_error) * &Dyadic::exactly(t)).abs();
-        // The number that was rounded to t: up to half a unit in the last place from it.
-        let unit = Dyadic::exactly(step(t, 1) - t).abs();
-        let before = &Dyadic::exactly(t)
-            + &(&unit * &Dyadic::exactly(f64::from(random.integer(-1..=1)) / 2.0));
-        let ends = [&before - &error, &before + &error].map(|end| nearest_f32(&end));
-        let rounded = round_to_f32(t, relative_error);
-        if let Some(rounded) = rounded {
-            assert_eq!([rounded; 2], ends, "{t:e}, {relative_error:e}");
-            decided += 1;
-        }
-        // Undecided only where the ends, some units in the last place farther out, do differ.
-        let slack = Dyadic::exactly(t).abs().scaled(-50);
-        let [low, high] = [&(&before - &error) - &slack, &(&before + &error) + &slack];
-        assert!(rounded.is_some() || nearest_f32(&low) != nearest_f32(&high), "{t:e}");
-    }
-    assert!((3_000..17_000).contains(&decided), "{decided}");
-}
-
-#[test]
-fn a_midpoint_with_something_below_it_is_undecided() {
-    for t in [1.0 + f64::from(f32::EPSILON) / 2.0, -16_777_214.5, 2_f64.powi(-150)] {
-        assert_eq!(round_to_f32(t, 2_f64.powi(-100)), None);
-    }
-    assert_eq!(round_to_f32(0.0, U), Some(0.0));
-}
-
-#[test]
-fn rounding_exactly_rounds_to_nearest_even() {
-    let mut random = Random::new(3);
-    for round in 0..20_000_i32 {
-        let middle = midpoint(&mut random);
-        // On the midpoint, or beside it, by less than an f64 can tell.
-        let beside = round % 3 - 1;
-        let away = Dyadic::exactly(middle).scaled(i64::from(-random.integer(54..=200)));
-        let exact = &Dyadic::exactly(middle) + &(&away * &Dyadic::new(beside, 0));
-        let t = step(middle, i64::from(random.integer(-1..=1)));
-        let rounded = round_to_f32_exactly(t, |number| exact.cmp(&Dyadic::exactly(number)));
-        assert_eq!(rounded, nearest_f32(&exact), "{middle:e} and {beside}, from {t:e}");
-    }
-}
-
-#[test]
-fn rounding_exactly_does_not_ask_where_it_can_tell() {
-    for t in [0.0, 1.0, -3.0e-46, 1e39, -f64::from(f32::MAX)] {
-        #[expect(clippy::cast_possible_truncation, reason = "rounding is what is tested")]
-        let expected = t as f32;
-        assert_eq!(round_to_f32_exactly(t, |_| unreachable!()), expected);
-    }
 }
 
 #[test]

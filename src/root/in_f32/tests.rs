@@ -1,61 +1,202 @@
 use super::*;
-use crate::algebraic::Quadratic;
-use crate::refine::needs_integers;
+use crate::geometric::ClosestApproach;
+use crate::root::crossing::{Question, Verdict};
+use crate::root::format::Format;
+use crate::root::integers::Exact;
+use crate::root::tests::{line, parts_of_tolerance, single};
+use crate::root::{bounded, in_f64, pairs};
+use crate::testing::{Dyadic, ExactChord, Lie, Random, nearest, search, setting};
 
-#[path = "../../tests/support/families.rs"]
+#[expect(clippy::duplicate_mod, reason = "other unit tests take it, too")]
+#[path = "../../../tests/support/families.rs"]
 mod families;
 
 use families::{FAMILIES, Rng};
 
 /// How far a case has to go for its nearest root.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-enum Effort {
-    FirstTry,
-    SecondTry,
+pub(in crate::root) enum Effort {
+    /// The plain step; in `f64`, with the correction by halves.
+    Hot,
+    /// A finer power or a rough root.
+    Again,
+    Bounded,
     Pairs,
     Integers,
 }
 
-fn effort(sphere: &Sphere, ray: &Ray) -> Effort {
-    let setting = Setting::new(sphere, ray);
-    match nearest_ahead(&setting.chord::<Quadratic>(), setting.radius_squared) {
-        FirstTry::Miss => return Effort::FirstTry,
-        FirstTry::Root { numerator, denominator, .. } => {
-            let t = numerator / denominator;
-            let normal = t >= f64::from(f32::MIN_POSITIVE) && rounds_safely::<MARGIN>(t);
-            if normal || t < 0.0 {
-                return Effort::FirstTry;
-            }
+/// Which of the steps with a bound of the case decides.
+pub(in crate::root) fn careful_effort(line: &Line, format: Format, range: Range<f64>) -> Effort {
+    let question = Question::Nearest(range);
+    let verdict = bounded::chord(*line, format).and_then(|chord| question.ask(&chord));
+    if !matches!(verdict, Verdict::Doubt) {
+        return Effort::Bounded;
+    }
+    if format == Format::F64 || Exact::new(line).is_wide() {
+        let verdict = pairs::chord(line, format).and_then(|chord| question.ask(&chord));
+        if !matches!(verdict, Verdict::Doubt) {
+            return Effort::Pairs;
         }
-        FirstTry::Doubt => {}
     }
-    let line = Line::new(sphere, ray);
-    match second_try(line.o(), line.direction.into(), line.radius) {
-        SecondTry::Miss => return Effort::SecondTry,
-        SecondTry::Hit(estimate) if settle(&estimate, &line).is_some() => return Effort::SecondTry,
-        _ => {}
-    }
-    if needs_integers::<f32>(&line) { Effort::Integers } else { Effort::Pairs }
+    Effort::Integers
 }
 
-/// `cargo test --lib how_often -- --nocapture` prints, of every family, how many in a hundred get no further than each try.
+#[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
+fn effort(sphere: &Sphere, ray: &Ray) -> Effort {
+    let setting = Setting::new(sphere, ray);
+    let chord = setting.chord::<Quadratic>();
+    let is_certain = |t: f64| t as f32 >= f32::MIN_POSITIVE;
+    match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, || None) {
+        Nearest::Miss => return Effort::Hot,
+        Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) && is_certain(t) => {
+            return Effort::Hot;
+        }
+        _ => {}
+    }
+    let larger = chord.distance_squared.max(setting.radius_squared);
+    let fine_power = || Some(halves::power(setting.line, setting.o, larger));
+    match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
+        Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) && is_certain(t) => {
+            return Effort::Again;
+        }
+        Nearest::Rough { t, error } => {
+            let is_far = chord.distance_squared > NEAR * setting.radius_squared;
+            if (t - error) as f32 == (t + error) as f32 && is_certain(t) && is_far {
+                return Effort::Again;
+            }
+        }
+        _ => {}
+    }
+    careful_effort(&setting.line, Format::F32, 0.0..f64::INFINITY)
+}
+
+/// `cargo test --lib how_often -- --nocapture` prints, of every family, how many in a hundred get no further than each step.
 /// What that costs, `cargo bench --bench speed_vs_error` measures.
 #[test]
 fn how_often_the_careful_paths_run() {
-    const CASES: u32 = 4000;
-    println!("{:<28} {:>9} {:>9} {:>9} {:>9}", "%", "first", "second", "pairs", "integers");
+    const CASES: u32 = 2000;
+    let print = |name: &str, precision: &str, efforts: &mut dyn FnMut() -> Effort| {
+        let mut counts = [0; 5];
+        for _ in 0..CASES {
+            counts[efforts() as usize] += 1;
+        }
+        let parts = counts.map(|count| 100.0 * f64::from(count) / f64::from(CASES));
+        let [hot, again, bounded, pairs, integers] = parts;
+        println!(
+            "{name:<28} {precision} {hot:>8.2} {again:>8.2} {bounded:>8.2} {pairs:>8.2} {integers:>8.2}"
+        );
+        if name == "easy" {
+            assert!(hot > 99.0, "the hot path is the rule");
+        }
+    };
+    println!(
+        "{:<32} {:>8} {:>8} {:>8} {:>8} {:>8}",
+        "%", "hot", "again", "bounded", "pairs", "integers"
+    );
     for family in FAMILIES {
         let mut rng = Rng::new(1);
-        let mut counts = [0; 4];
-        for _ in 0..CASES {
+        print(family.name, "f32", &mut || {
             let (ray, sphere) = (family.f32)(&mut rng);
-            counts[effort(&sphere, &ray) as usize] += 1;
+            effort(&sphere, &ray)
+        });
+        let mut rng = Rng::new(1);
+        print(family.name, "f64", &mut || {
+            let (ray, sphere) = (family.f64)(&mut rng);
+            in_f64::tests::effort(&sphere, &ray)
+        });
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "they are f32")]
+fn ray_and_sphere(numbers: [f64; 10]) -> (Ray, Sphere) {
+    let line = line(numbers);
+    let ray = Ray::new(line.origin.as_vec3(), line.direction.as_vec3());
+    (ray, Sphere::new(line.center.as_vec3(), line.radius as f32))
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a guess")]
+fn rounded(exact: &Dyadic) -> f32 {
+    nearest(exact, exact.approximately() as f32)
+}
+
+const LIES: [Lie; 14] = [
+    Lie { power: 0.99, discriminant: 1e-4 },
+    Lie { power: 0.5, discriminant: 0.3 },
+    Lie { power: 0.5, discriminant: 1e-8 },
+    Lie { power: 0.5, discriminant: 1e-13 },
+    Lie { power: 0.5, discriminant: -1e-13 },
+    Lie { power: -0.5, discriminant: 0.7 },
+    Lie { power: 1e-9, discriminant: 0.5 },
+    Lie { power: -1e-9, discriminant: 0.5 },
+    Lie { power: 1e-12, discriminant: 0.3 },
+    // From afar, through the middle and close to the limb.
+    Lie { power: 1.0 - 1.1 / NEAR, discriminant: 0.5 / NEAR },
+    Lie { power: 1.0 - 0.9 / NEAR, discriminant: 0.5 / NEAR },
+    Lie { power: 1.0 - 1e-8, discriminant: 1e-9 },
+    Lie { power: 1.0 - 1e-8, discriminant: 3e-10 },
+    Lie { power: 1.0 - 1e-13, discriminant: 3e-14 },
+];
+
+#[test]
+fn the_margin_is_that_of_the_plain_step() {
+    assert_eq!(MARGIN, 18 << 16);
+    assert_eq!(CLEAR, 2_f64.powi(-16));
+}
+
+#[test]
+#[expect(clippy::cast_possible_truncation, reason = "t is rounded already")]
+fn answers_are_the_exact_ones_rounded() {
+    let mut random = Random::new(1);
+    for _ in 0..3000 {
+        let lie = LIES[random.below(LIES.len())];
+        let numbers = single(setting(&mut random, lie));
+        let (ray, sphere) = ray_and_sphere(numbers);
+        let exact = ExactChord::new(numbers).roots();
+        let roots = exact.map(|roots| [0, 1].map(|side: usize| rounded(&roots[side])));
+        assert_eq!(Vec3::roots::<Quadratic>(&sphere, &ray), roots, "{numbers:?}");
+        assert_eq!(Vec3::roots::<ClosestApproach>(&sphere, &ray), roots, "{numbers:?}");
+        let ahead = roots.into_iter().flatten().filter(|t| *t > 0.0).collect::<Vec<_>>();
+        // From the first root on, from just behind it, and only up to it.
+        let mut ranges = vec![0.0..f32::INFINITY];
+        for t in &ahead {
+            let next = f32::from_bits(t.to_bits() + 1);
+            ranges.extend([*t..f32::INFINITY, next..f32::INFINITY, 0.0..*t, 0.0..next]);
         }
-        let [first, second, pairs, integers] =
-            counts.map(|count| 100.0 * f64::from(count) / f64::from(CASES));
-        println!("{:<28} {first:>9.2} {second:>9.2} {pairs:>9.2} {integers:>9.2}", family.name);
-        if family.name == "easy" {
-            assert!(first > 99.5, "the hot path is the rule");
+        // There is no number in a range from or to NaN.
+        ranges.extend([0.0..f32::NAN, f32::NAN..f32::INFINITY, 1.0..0.0]);
+        for range in ranges {
+            let expected = ahead.iter().copied().find(|t| range.contains(t));
+            let found = [
+                Vec3::intersect::<Quadratic>(&sphere, &ray, range.clone()).map(|hit| hit.t),
+                Vec3::intersect::<ClosestApproach>(&sphere, &ray, range.clone()).map(|hit| hit.t),
+                nearest_again(&sphere, &ray, &Line::new(&sphere, &ray), range.clone())
+                    .map(|found| found.t as f32),
+            ];
+            assert_eq!(found, [expected; 3], "{range:?} {numbers:?}");
         }
     }
+}
+
+#[test]
+fn points_keep_their_tolerance() {
+    let start = |random: &mut Random| {
+        let lie = LIES[random.below(LIES.len())];
+        setting(random, lie)
+    };
+    let part = |numbers| {
+        let numbers = single(numbers);
+        let (ray, sphere) = ray_and_sphere(numbers);
+        let roots = ExactChord::new(numbers).roots()?;
+        let tolerance = Format::F32.point_tolerance();
+        let part = |found: Found| {
+            let near = Dyadic::exactly(found.t);
+            let closer = |a: &&Dyadic, b: &&Dyadic| (*a - &near).abs().cmp(&(*b - &near).abs());
+            let root = roots.iter().min_by(closer).expect("two roots");
+            let [point, normal] = parts_of_tolerance(numbers, root, &found, tolerance);
+            point.max(normal)
+        };
+        let line = Line::new(&sphere, &ray);
+        nearest_again(&sphere, &ray, &line, 0.0..f32::INFINITY).map(part)
+    };
+    assert!(search("point of the plain step in f32", 80, 150, start, part) > 0.03);
 }

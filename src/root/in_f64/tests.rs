@@ -1,84 +1,121 @@
 use super::*;
-use crate::algebraic::Quadratic;
-use crate::testing::{Dyadic, ExactChord, Lie, Random, part_of_bound, search, setting};
+use crate::geometric::ClosestApproach;
+use crate::root::in_f32::tests::{Effort, careful_effort};
+use crate::root::tests::{line, parts_of_tolerance};
+use crate::testing::{Dyadic, ExactChord, Lie, Random, nearest, search, setting};
 
-fn line(numbers: [f64; 10]) -> Setting {
-    let [cx, cy, cz, px, py, pz, dx, dy, dz, radius] = numbers;
-    Setting::new(
-        &Sphere::new(DVec3::new(cx, cy, cz), radius),
-        &Ray::new(DVec3::new(px, py, pz), DVec3::new(dx, dy, dz)),
-    )
+/// How far a case has to go for its nearest root.
+pub(in crate::root) fn effort(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> Effort {
+    let range = 0.0..f64::INFINITY;
+    let setting = Setting::new(sphere, ray);
+    if let Some(chord) = setting.chord::<Quadratic>() {
+        match plain::nearest_ahead(&chord, setting.radius_squared, halves::CLEAR, || None) {
+            Nearest::Miss => return Effort::Hot,
+            Nearest::Root { t, half_chord } => {
+                let size = setting.radius_squared * setting.larger(&chord);
+                let corrected = setting.correction(&chord).correct_surely(t, half_chord, size);
+                if corrected.is_some_and(|corrected| corrected.t.hi >= range.start) {
+                    return Effort::Hot;
+                }
+            }
+            Nearest::Rough { .. } | Nearest::Doubt => {}
+        }
+    }
+    if from_the_surface(setting.line, &range).is_some() {
+        return Effort::Again;
+    }
+    careful_effort(&setting.line, Format::F64, range)
 }
 
-const LIES: [Lie; 6] = [
+fn ray_and_sphere(numbers: [f64; 10]) -> (Ray<DVec3>, Sphere<DVec3>) {
+    let line = line(numbers);
+    (Ray::new(line.origin, line.direction), Sphere::new(line.center, line.radius))
+}
+
+const LIES: [Lie; 14] = [
     Lie { power: 0.99, discriminant: 1e-4 },
-    Lie { power: 0.5, discriminant: 0.5 },
-    Lie { power: 1e-4, discriminant: 1e-4 },
-    Lie { power: -0.9, discriminant: 0.95 },
-    // From the surface through the center, where the bound is what it is for.
-    Lie { power: 1e-4, discriminant: 0.9998 },
-    Lie { power: -1e-4, discriminant: 0.9999 },
+    Lie { power: 0.5, discriminant: 0.3 },
+    Lie { power: 0.5, discriminant: 1e-8 },
+    Lie { power: 0.5, discriminant: 1e-13 },
+    Lie { power: 0.5, discriminant: -1e-13 },
+    Lie { power: -0.5, discriminant: 0.7 },
+    Lie { power: 1e-3, discriminant: 0.5 },
+    Lie { power: -1e-3, discriminant: 0.5 },
+    Lie { power: 1e-9, discriminant: 0.5 },
+    Lie { power: -1e-9, discriminant: 0.5 },
+    Lie { power: 1e-15, discriminant: 0.3 },
+    Lie { power: -1e-16, discriminant: 0.5 },
+    Lie { power: 1.0 - 1e-8, discriminant: 1e-9 },
+    Lie { power: 1.0 - 1e-13, discriminant: 3e-14 },
 ];
 
-fn search_settings(what: &str, part: impl Fn(&ExactChord, &Setting) -> Option<f64>) -> f64 {
+#[test]
+fn squares_are_safe_from_2_to_the_minus_480_up_to_2_to_the_480() {
+    let (least, most) = (2_f64.powi(-480), 2_f64.powi(480));
+    for square in [least, 1.0, most * (1.0 - f64::EPSILON)] {
+        assert!(is_safe(square), "{square:e}");
+    }
+    let below = least * (1.0 - f64::EPSILON / 2.0);
+    for square in [below, most, 0.0, -0.0, -1.0, f64::INFINITY, -f64::INFINITY, f64::NAN] {
+        assert!(!is_safe(square), "{square:e}");
+    }
+}
+
+#[test]
+fn answers_are_the_exact_ones_rounded() {
+    let mut random = Random::new(1);
+    let mut close = 0;
+    for _ in 0..3000 {
+        let lie = LIES[random.below(LIES.len())];
+        let numbers = setting(&mut random, lie);
+        let (ray, sphere) = ray_and_sphere(numbers);
+        let exact = ExactChord::new(numbers).roots();
+        let roots = exact.map(|roots| {
+            [0, 1].map(|side: usize| nearest(&roots[side], roots[side].approximately()))
+        });
+        assert_eq!(DVec3::roots::<Quadratic>(&sphere, &ray), roots, "{numbers:?}");
+        assert_eq!(DVec3::roots::<ClosestApproach>(&sphere, &ray), roots, "{numbers:?}");
+        let ahead = roots.into_iter().flatten().filter(|t| *t > 0.0).collect::<Vec<_>>();
+        // From the first root on, from just behind it, and only up to it.
+        let mut ranges = vec![0.0..f64::INFINITY];
+        for t in &ahead {
+            let next = f64::from_bits(t.to_bits() + 1);
+            ranges.extend([*t..f64::INFINITY, next..f64::INFINITY, 0.0..*t, 0.0..next]);
+        }
+        // Nothing behind the origin is ahead, and there is no number in a range from or to NaN.
+        ranges.extend([-1e9..f64::INFINITY, 0.0..f64::NAN, f64::NAN..f64::INFINITY, 1.0..0.0]);
+        for range in ranges {
+            let expected = ahead.iter().copied().find(|t| range.contains(t));
+            let found = [
+                DVec3::intersect::<Quadratic>(&sphere, &ray, range.clone()).map(|hit| hit.t),
+                DVec3::intersect::<ClosestApproach>(&sphere, &ray, range.clone()).map(|hit| hit.t),
+                nearest_again(&line(numbers), range.clone()).map(|found| found.t),
+            ];
+            assert_eq!(found, [expected; 3], "{range:?} {numbers:?}");
+            if let Some(found) = from_the_surface(line(numbers), &range) {
+                assert_eq!(found.map(|found| found.t), expected, "{range:?} {numbers:?}");
+                close += 1;
+            }
+        }
+    }
+    assert!(close > 2000, "{close} from close to the surface");
+}
+
+#[test]
+fn points_keep_their_tolerance() {
     let start = |random: &mut Random| {
         let lie = LIES[random.below(LIES.len())];
         setting(random, lie)
     };
-    search(what, 60, 200, start, |numbers| part(&ExactChord::new(numbers), &line(numbers)))
-}
-
-/// The roots of the first try, before they are polished.
-fn first_roots(setting: &Setting) -> Option<([f64; 2], f64)> {
-    match both_roots(&setting.chord::<Quadratic>()?, setting.radius_squared) {
-        BothRoots::Roots { t, half_chord } => Some((t, half_chord)),
-        _ => None,
-    }
-}
-
-/// The larger part that the residuals at two numbers take of their bound.
-fn residuals(exact: &ExactChord, setting: &Setting, numbers: [f64; 2]) -> f64 {
-    let parts = numbers.map(|t| {
-        let number = Dyadic::exactly(t);
-        let slope = &(&exact.a * &number) - &(&exact.h + &exact.h);
-        let residual = &(&slope * &number) + &exact.power;
-        let unit = &Dyadic::exactly(f64::EPSILON) * &residual.clone().abs();
-        let bound = &unit + &(&Dyadic::exactly(RESIDUAL_ERROR) * &exact.larger());
-        part_of_bound(&Dyadic::exactly(setting.residual(t)), &residual, &bound)
-    });
-    parts[0].max(parts[1])
-}
-
-#[test]
-fn residuals_keep_their_bound() {
-    let first_try = |exact: &ExactChord, setting: &Setting| {
-        Some(residuals(exact, setting, first_roots(setting)?.0))
+    let part = |numbers| {
+        let roots = ExactChord::new(numbers).roots()?;
+        let found = nearest_again(&line(numbers), 0.0..f64::INFINITY)?;
+        let near = Dyadic::exactly(found.t);
+        let closer = |a: &&Dyadic, b: &&Dyadic| (*a - &near).abs().cmp(&(*b - &near).abs());
+        let root = roots.iter().min_by(closer).expect("two roots");
+        let tolerance = Format::F64.point_tolerance();
+        let [point, normal] = parts_of_tolerance(numbers, root, &found, tolerance);
+        Some(point.max(normal))
     };
-    assert!(search_settings("residual at the first try", first_try) > 0.07);
-
-    // At a root, its own last place is nothing, and the bound is that of what is rounded on the way.
-    let nearest = |exact: &ExactChord, setting: &Setting| {
-        let roots = exact.roots()?.map(|root| root.approximately());
-        Some(residuals(exact, setting, roots))
-    };
-    assert!(search_settings("residual at a root", nearest) > 0.1);
-}
-
-#[test]
-fn polished_roots_are_the_nearest_or_next_to_it() {
-    // Half a unit in the last place for the rounding of the sum, and 2⁻⁹ of one for all else, twice the square of the first
-    // try's error over √CLEAR: 2⁻⁶² of the root.
-    let part = |exact: &ExactChord, setting: &Setting| {
-        let (roots, half_chord) = first_roots(setting)?;
-        let expected = exact.roots().expect("this hits");
-        let parts = [(0, half_chord), (1, -half_chord)].map(|(side, half_chord): (usize, f64)| {
-            let (t, _) = setting.polish(roots[side], half_chord);
-            let unit = f64::from_bits(t.abs().to_bits() + 1) - t.abs();
-            let rest = &Dyadic::exactly(2_f64.powi(-62)) * &expected[side].clone().abs();
-            let bound = &Dyadic::exactly(unit / 2.0) + &rest;
-            part_of_bound(&Dyadic::exactly(t), &expected[side], &bound)
-        });
-        Some(parts[0].max(parts[1]))
-    };
-    assert!(search_settings("polished root", part) > 0.99);
+    assert!(search("point of the careful steps in f64", 80, 150, start, part) > 0.5);
 }

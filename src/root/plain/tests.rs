@@ -3,9 +3,11 @@ use glam::DVec3;
 use super::*;
 use crate::algebraic::Quadratic;
 use crate::arithmetic::number::Triple;
-use crate::chord::Derivation;
 use crate::geometric::ClosestApproach;
-use crate::testing::{Dyadic, ExactChord, Lie, Random, part_of_bound, search, setting};
+use crate::root::chord::Derivation;
+use crate::root::tests::line;
+use crate::root::{halves, in_f32};
+use crate::testing::{Dyadic, ExactChord, Lie, Random, nearest, part_of_bound, search, setting};
 
 /// A ray, a sphere and how the plain arithmetic sees them.
 struct Case {
@@ -17,11 +19,10 @@ struct Case {
 impl Case {
     /// From the coordinates of center, origin and direction, and the radius.
     fn new<D: Derivation>(numbers: [f64; 10]) -> Self {
-        let [cx, cy, cz, px, py, pz, dx, dy, dz, radius] = numbers;
-        let o = DVec3::new(cx, cy, cz) - DVec3::new(px, py, pz);
-        let d = Triple { x: dx, y: dy, z: dz };
-        let radius_squared = radius * radius;
-        let chord = D::chord(Triple::from(o), d, radius_squared);
+        let line = line(numbers);
+        let radius_squared = line.radius * line.radius;
+        let o = Triple::from(line.center - line.origin);
+        let chord = D::chord(o, line.direction.into(), radius_squared);
         Self { exact: ExactChord::new(numbers), chord, radius_squared }
     }
 
@@ -39,45 +40,65 @@ impl Case {
         Self::part(self.chord.power, &self.exact.power, POWER_ERROR, &self.exact.larger())
     }
 
+    /// The power, off by as much as it may be, to either side.
+    fn worst_fine_power(&self, sign: i32) -> f64 {
+        let error = &self.exact.larger() * &Dyadic::new(sign, -76);
+        let power = &self.exact.power + &error;
+        nearest(&power, power.approximately())
+    }
+
     /// What part of its bound the error of the nearest root ahead takes, after a look at whether that is the right answer.
-    fn nearest(&self) -> Option<f64> {
+    fn nearest(&self, clear: f64, fine_power: Option<f64>) -> Option<f64> {
         let inside = self.exact.power.is_negative();
-        match nearest_ahead(&self.chord, self.radius_squared) {
-            FirstTry::Doubt => None,
-            FirstTry::Miss => {
+        match nearest_ahead(&self.chord, self.radius_squared, clear, || fine_power) {
+            Nearest::Doubt => None,
+            Nearest::Miss => {
                 assert!(!inside, "there is a root ahead from inside");
                 let misses = self.exact.discriminant.is_negative();
                 assert!(misses || self.exact.h.is_negative(), "there is a root ahead");
                 Some(0.0)
             }
-            FirstTry::Root { numerator, denominator, half_chord } => {
+            Nearest::Root { t, half_chord } => {
                 assert_eq!(half_chord < 0.0, inside, "a ray leaves where it starts inside");
-                if !inside && self.exact.h.is_negative() {
-                    assert!(numerator / denominator < 0.0, "there is no root ahead");
-                    return Some(0.0);
-                }
                 let exact =
                     self.exact.roots().expect("there is no root")[usize::from(inside)].clone();
                 assert!(!exact.is_negative(), "the root is behind");
-                let size = exact.clone().abs();
-                Some(Self::part(numerator / denominator, &exact, RELATIVE_ERROR, &size))
+                Some(Self::part(t, &exact, ROOT_ERROR / clear, &exact))
+            }
+            Nearest::Rough { t, error } => {
+                assert!(!inside, "rough from inside");
+                let exact = &self.exact.roots().expect("there is no root")[0];
+                assert!(!exact.is_negative(), "the root is behind");
+                Some(Self::part(t, exact, error, &Dyadic::new(1, 0)))
             }
         }
     }
 
+    /// The same where the power has to be finer than the plain one.
+    fn nearest_by_a_fine_power(&self, clear: f64) -> Option<f64> {
+        if let Nearest::Root { .. } =
+            nearest_ahead(&self.chord, self.radius_squared, clear, || None)
+        {
+            return None;
+        }
+        let parts = [-1, 1].map(|sign| self.nearest(clear, Some(self.worst_fine_power(sign))));
+        parts.into_iter().flatten().reduce(f64::max)
+    }
+
     /// The same of both roots: the larger part.
-    fn both(&self) -> Option<f64> {
-        match both_roots(&self.chord, self.radius_squared) {
-            BothRoots::Doubt => None,
-            BothRoots::Miss => {
+    fn both(&self, clear: f64) -> Option<f64> {
+        match both(&self.chord, self.radius_squared, clear) {
+            Both::Doubt => None,
+            Both::Miss => {
                 assert!(self.exact.discriminant.is_negative(), "the line hits");
                 Some(0.0)
             }
-            BothRoots::Roots { t, half_chord } => {
+            Both::Roots { t, half_chord } => {
                 assert!(half_chord > 0.0);
                 let exact = self.exact.roots().expect("the line misses");
                 let parts = [0, 1].map(|side: usize| {
-                    Self::part(t[side], &exact[side], RELATIVE_ERROR, &exact[side].clone().abs())
+                    let size = exact[side].clone().abs();
+                    Self::part(t[side], &exact[side], ROOT_ERROR / clear, &size)
                 });
                 Some(parts[0].max(parts[1]))
             }
@@ -97,11 +118,20 @@ fn search_chords<D: Derivation>(
     search(what, 60, 250, start, |numbers| part(&Case::new::<D>(numbers)))
 }
 
+/// The two parts `clear` that there are, and the largest allowed.
+const CLEARS: [f64; 3] = [in_f32::CLEAR, halves::CLEAR, 1.0 / 256.0];
+
 /// From where the bounds of relative errors are largest: as little clear of doubt as may be.
-const ALMOST_IN_DOUBT: [Lie; 2] = [
-    Lie { power: 1.01 * CLEAR, discriminant: 1.01 * CLEAR },
-    Lie { power: -1.01 * CLEAR, discriminant: 1.02 * CLEAR },
-];
+fn almost_in_doubt(clear: f64) -> [Lie; 4] {
+    [
+        // Where both the power and the discriminant count.
+        Lie { power: 2.42 * clear, discriminant: 2.42 * clear },
+        Lie { power: -1.01 * clear, discriminant: 1.02 * clear },
+        // Where the discriminant alone does, close to the limb.
+        Lie { power: 0.5, discriminant: 2.1 * clear * clear },
+        Lie { power: 0.9, discriminant: 1.2 * clear * clear },
+    ]
+}
 
 const ANYWHERE: [Lie; 5] = [
     Lie { power: 1.0, discriminant: -0.01 },
@@ -110,6 +140,14 @@ const ANYWHERE: [Lie; 5] = [
     Lie { power: -1e-10, discriminant: 0.5 },
     Lie { power: -0.9, discriminant: 0.95 },
 ];
+
+#[test]
+fn the_constants_are_those_of_the_analysis() {
+    assert_eq!(
+        [DISCRIMINANT_ERROR, POWER_ERROR, ROOT_ERROR, ROUGH_ERROR, SURE_MISS, SURE_SIGN],
+        [21.0, 7.0, 18.0, 30.0, 22.0, 8.0].map(|count| count * U)
+    );
+}
 
 #[test]
 fn discriminants_keep_their_bound() {
@@ -126,30 +164,120 @@ fn powers_keep_their_bound() {
 
 #[test]
 fn nearest_roots_keep_their_bound() {
-    let lies = &ALMOST_IN_DOUBT;
-    assert!(search_chords::<Quadratic>("nearest root, algebraic", lies, Case::nearest) > 0.125);
-    assert!(
-        search_chords::<ClosestApproach>("nearest root, geometric", lies, Case::nearest) > 0.125
-    );
+    for clear in CLEARS {
+        let lies = &almost_in_doubt(clear);
+        let part = |case: &Case| {
+            let root = nearest_ahead(&case.chord, case.radius_squared, clear, || None);
+            if matches!(root, Nearest::Rough { .. }) { None } else { case.nearest(clear, None) }
+        };
+        assert!(search_chords::<Quadratic>("nearest root, algebraic", lies, part) > 0.1);
+        assert!(search_chords::<ClosestApproach>("nearest root, geometric", lies, part) > 0.1);
+    }
 }
 
 #[test]
 fn both_roots_keep_their_bound() {
-    let lies = &ALMOST_IN_DOUBT
-        .map(|lie| Lie { power: 2.0 * lie.power, discriminant: 2.0 * lie.discriminant });
-    assert!(search_chords::<Quadratic>("both roots, algebraic", lies, Case::both) > 0.06);
-    assert!(search_chords::<ClosestApproach>("both roots, geometric", lies, Case::both) > 0.06);
+    for clear in CLEARS {
+        let lies = &almost_in_doubt(clear);
+        let part = |case: &Case| case.both(clear);
+        assert!(search_chords::<Quadratic>("both roots, algebraic", lies, part) > 0.06);
+        assert!(search_chords::<ClosestApproach>("both roots, geometric", lies, part) > 0.06);
+    }
+}
+
+#[test]
+fn roots_by_a_finer_power_keep_their_bound() {
+    let clear = in_f32::CLEAR;
+    let lies = [
+        // As small as the power may be, and a good deal smaller.
+        Lie { power: 1.1 * FINE_POWER, discriminant: 0.51 * clear },
+        Lie { power: -1.1 * FINE_POWER, discriminant: 0.51 * clear },
+        Lie { power: FINE_POWER / 33.0, discriminant: 0.51 * clear },
+        Lie { power: -FINE_POWER / 33.0, discriminant: 0.51 * clear },
+        Lie { power: 1e-9, discriminant: 0.51 * clear },
+        Lie { power: 1e-7, discriminant: 0.5 },
+        Lie { power: -1e-7, discriminant: 0.5 },
+    ];
+    let part = |case: &Case| case.nearest_by_a_fine_power(clear);
+    assert!(search_chords::<Quadratic>("root by a finer power", &lies, part) > 0.15);
+}
+
+#[test]
+fn a_finer_power_is_asked_only_close_to_the_surface() {
+    let asked = |lie: Lie| {
+        let mut asked = 0;
+        let case = Case::new::<Quadratic>(setting(&mut Random::new(1), lie));
+        let _ = nearest_ahead(&case.chord, case.radius_squared, in_f32::CLEAR, || {
+            asked += 1;
+            None
+        });
+        asked
+    };
+    for (power, discriminant, count) in [
+        (1e-9, 0.5, 1),
+        (-1e-9, 0.5, 1),
+        (0.5, 0.3, 0),
+        (-0.5, 0.7, 0),
+        (0.5, 1e-14, 0),
+        (-1e-14, 1e-13, 0),
+    ] {
+        let found = asked(Lie { power, discriminant });
+        assert!(found == count || (power < 0.0 && found == 0), "{power} {discriminant}: {found}");
+    }
+}
+
+#[test]
+fn rough_roots_keep_their_bound() {
+    let clear = in_f32::CLEAR;
+    let lies = [
+        Lie { power: 0.5, discriminant: 5e-15 },
+        Lie { power: 0.99, discriminant: 4e-15 },
+        Lie { power: 0.9999, discriminant: 1e-12 },
+        Lie { power: 1e-8, discriminant: 1e-13 },
+        Lie { power: 3e-15, discriminant: 5e-15 },
+    ];
+    let part = |case: &Case| match nearest_ahead(&case.chord, case.radius_squared, clear, || None) {
+        Nearest::Rough { .. } => case.nearest(clear, None),
+        _ => None,
+    };
+    assert!(search_chords::<Quadratic>("rough root, algebraic", &lies, part) > 0.05);
+    assert!(search_chords::<ClosestApproach>("rough root, geometric", &lies, part) > 0.05);
 }
 
 #[test]
 fn signs_of_powers_are_certain() {
-    // From the surface, or as little outside as can be, the power that looks most like one from inside.
+    // From the surface, or as little to one side as can be, the power that looks most like one from the other side.
     let lies = [1e-17, 1e-16].map(|power| Lie { power, discriminant: 0.5 });
     let part = |case: &Case| {
-        let certain = SIGN_CERTAIN * case.radius_squared;
-        (!case.exact.power.is_negative()).then_some(-case.chord.power / certain)
+        let certain = SURE_SIGN * case.radius_squared;
+        let is_case = !case.exact.power.is_negative();
+        Some(if is_case { -case.chord.power / certain } else { f64::NEG_INFINITY })
     };
-    assert!(search_chords::<Quadratic>("sign of a power", &lies, part) > 0.2);
+    assert!(search_chords::<Quadratic>("sign of a power from outside", &lies, part) > 0.2);
+    let lies = [-1e-17, -1e-16].map(|power| Lie { power, discriminant: 0.5 });
+    let part = |case: &Case| {
+        let certain = SURE_SIGN * case.chord.distance_squared;
+        let is_outside = !case.exact.power.is_negative() && !case.exact.power.is_zero();
+        Some(if is_outside { f64::NEG_INFINITY } else { case.chord.power / certain })
+    };
+    assert!(search_chords::<Quadratic>("sign of a power from inside", &lies, part) > 0.15);
+}
+
+#[test]
+fn misses_are_certain() {
+    // Lines that touch or nearly so, and the discriminant that looks most like that of a miss.
+    let lies = [
+        Lie { power: 0.5, discriminant: 1e-17 },
+        Lie { power: 0.99, discriminant: 1e-16 },
+        Lie { power: 1e-3, discriminant: 1e-16 },
+    ];
+    let part = |case: &Case| {
+        let certain = SURE_MISS * (case.chord.a * case.chord.distance_squared);
+        let is_case = !case.exact.discriminant.is_negative();
+        Some(if is_case { -case.chord.discriminant / certain } else { f64::NEG_INFINITY })
+    };
+    assert!(search_chords::<Quadratic>("miss, algebraic", &lies, part) > 0.1);
+    assert!(search_chords::<ClosestApproach>("miss, geometric", &lies, part) > 0.05);
 }
 
 #[test]
@@ -164,7 +292,7 @@ fn a_wrong_sign_of_the_closest_approach_does_no_harm() {
     };
     let part = |numbers| {
         let case = Case::new::<Quadratic>(numbers);
-        let _ = case.nearest();
+        let _ = case.nearest(in_f32::CLEAR, None);
         let Chord { a, h, distance_squared, .. } = case.chord;
         (!case.exact.h.is_negative()).then_some(-h / (H_ERROR * (a * distance_squared).sqrt()))
     };
@@ -176,7 +304,7 @@ fn what_is_certain_is_right() {
     // Signs of the power and of the discriminant, down to their errors.
     let lie = |power: f64, discriminant: f64| Lie { power, discriminant };
     let mut random = Random::new(1);
-    for _ in 0..3000 {
+    for round in 0..3000 {
         let [x, y] =
             [0; 2].map(|_| 2_f64.powi(random.integer(-53..=-1)) * random.mantissa().sqrt() / 2.0);
         let numbers = match random.below(4) {
@@ -185,9 +313,13 @@ fn what_is_certain_is_right() {
             2 => setting(&mut random, lie(x, -y.min(1.0 - x))),
             _ => setting(&mut random, lie(-x.min(y), y)),
         };
+        let clear = CLEARS[round % 3];
         for case in [Case::new::<Quadratic>(numbers), Case::new::<ClosestApproach>(numbers)] {
-            assert!(case.nearest().unwrap_or(0.0) <= 1.0, "{numbers:?}");
-            assert!(case.both().unwrap_or(0.0) <= 1.0, "{numbers:?}");
+            assert!(case.nearest(clear, None).unwrap_or(0.0) <= 1.0, "{numbers:?}");
+            // What asks for such a power has that `clear`.
+            let by_a_fine_power = case.nearest_by_a_fine_power(in_f32::CLEAR);
+            assert!(by_a_fine_power.unwrap_or(0.0) <= 1.0, "{numbers:?}");
+            assert!(case.both(clear).unwrap_or(0.0) <= 1.0, "{numbers:?}");
         }
     }
 }
@@ -196,13 +328,13 @@ fn what_is_certain_is_right() {
 fn odd_arguments_are_no_hits() {
     let case = |o: DVec3, d: DVec3, radius_squared: f64| {
         let chord = Quadratic::chord(Triple::from(o), Triple::from(d), radius_squared);
-        let nearest = nearest_ahead(&chord, radius_squared);
-        let both = both_roots(&chord, radius_squared);
+        let nearest = nearest_ahead(&chord, radius_squared, in_f32::CLEAR, || Some(f64::NAN));
+        let both = both(&chord, radius_squared, in_f32::CLEAR);
         (
-            matches!(nearest, FirstTry::Root { .. }),
-            matches!(both, BothRoots::Roots { .. }),
-            matches!(nearest, FirstTry::Doubt),
-            matches!(both, BothRoots::Doubt),
+            matches!(nearest, Nearest::Root { .. } | Nearest::Rough { .. }),
+            matches!(both, Both::Roots { .. }),
+            matches!(nearest, Nearest::Doubt),
+            matches!(both, Both::Doubt),
         )
     };
     for (o, d, radius_squared) in [
@@ -213,7 +345,6 @@ fn odd_arguments_are_no_hits() {
         (DVec3::Y, DVec3::INFINITY, 1.0),
         (DVec3::Y, DVec3::X, f64::INFINITY),
         (DVec3::Y, DVec3::ZERO, 1.0),
-        (DVec3::Y, DVec3::ZERO, 0.25),
         (DVec3::ZERO, DVec3::ZERO, 0.0),
     ] {
         assert_eq!(
@@ -222,6 +353,9 @@ fn odd_arguments_are_no_hits() {
             "{o} {d} {radius_squared}"
         );
     }
+    // Outside, a zero direction is as good as a miss.
+    let (nearest, both, ..) = case(DVec3::Y, DVec3::ZERO, 0.25);
+    assert!(!nearest && !both);
     for o in [DVec3::ZERO, DVec3::X, DVec3::new(3.0, 0.1, 0.0)] {
         let (nearest, both, ..) = case(o, DVec3::X, -1.0);
         assert!(!nearest && !both, "{o}");

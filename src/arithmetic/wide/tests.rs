@@ -1,0 +1,114 @@
+use super::*;
+use crate::arithmetic::exact::Sum;
+use crate::arithmetic::pair::{QUOTIENT_ERROR, ROOT_ERROR, SUM_ERROR};
+use crate::testing::{Dyadic, Random, exactly, nearest, part_of_bound};
+
+fn number(wide: Wide) -> Dyadic {
+    exactly(wide.value).scaled(wide.exponent.into())
+}
+
+#[test]
+fn integers_keep_106_bits() {
+    let mut random = Random::new(1);
+    for _ in 0..5000 {
+        let bits = u128::from(random.bits()) << 64 | u128::from(random.bits());
+        let bits = match random.below(3) {
+            0 => bits,
+            1 => bits >> random.below(128),
+            _ => u128::MAX >> random.below(128),
+        };
+        let unit = random.integer(-5000..=5000);
+        let exact = Dyadic::new(bits, unit.into());
+        let wide = Wide::from_integer(bits, unit);
+        assert_eq!(wide.is_zero(), bits == 0);
+        assert!(!wide.is_negative());
+        if bits == 0 {
+            continue;
+        }
+        assert_eq!(i64::from(wide.exponent()), exact.magnitude(), "{bits:#x}");
+        assert_eq!(wide.value.hi + wide.value.lo, wide.value.hi, "{bits:#x}");
+        // Cut off after 106 bits.
+        let part = part_of_bound(&number(wide), &exact, &Dyadic::new(1, exact.magnitude() - 105));
+        assert!(part < 1.0, "{bits:#x}");
+        if bits < 1 << 106 || bits.trailing_zeros() >= 22 {
+            assert_eq!(number(wide), exact, "{bits:#x}");
+        }
+    }
+    assert_eq!(number(Wide::from_integer(1, -7)), Dyadic::new(1, -7));
+}
+
+/// A value of a sum of any exponent.
+fn random_wide(random: &mut Random) -> Wide {
+    let mut sum = Sum::zero();
+    let factors = [0; 4].map(|_| random.any_float());
+    sum.add(1, factors);
+    sum.add(1, [factors[0], factors[1], factors[2], factors[3] * f64::EPSILON]);
+    sum.value()
+}
+
+#[test]
+fn wide_numbers_keep_the_bounds_of_pairs() {
+    let mut random = Random::new(4);
+    for _ in 0..2000 {
+        let a = random_wide(&mut random);
+        let mut b = random_wide(&mut random);
+        if a.is_zero() || b.is_zero() {
+            continue;
+        }
+        if random.below(2) == 0 {
+            b.exponent = a.exponent + random.integer(-120..=120);
+        }
+        if random.below(4) == 0 {
+            b = Wide { value: Pair { lo: b.value.lo, ..-a.value }, ..a };
+        }
+        let (x, y) = (number(a), number(b));
+        assert_eq!(number(-a), -&x);
+
+        let size = &x.clone().abs() + &y.clone().abs();
+        let part = |computed, exact: &Dyadic, error, size: &Dyadic| {
+            part_of_bound(&number(computed), exact, &(&Dyadic::exactly(error) * size))
+        };
+        assert!(part(a + b, &(&x + &y), SUM_ERROR, &size) <= 1.0, "{a:?} + {b:?}");
+        let quotient = x.divided_by(&y, 240);
+        let size = quotient.clone().abs();
+        assert!(part(a / b, &quotient, QUOTIENT_ERROR, &size) <= 1.0, "{a:?} / {b:?}");
+        let a = if a.is_negative() { -a } else { a };
+        let root = number(a).square_root(240);
+        assert!(part(a.sqrt(), &root, ROOT_ERROR, &root) <= 1.0, "square root of {a:?}");
+
+        let middle = a.scaled(-a.exponent());
+        assert!((1.0..=2.0).contains(&middle.hi), "{a:?}");
+        assert_eq!(exactly(middle), number(a).scaled((-a.exponent()).into()));
+    }
+}
+
+#[test]
+fn wide_zero_is_zero() {
+    let one = Wide::from_integer(1, 0);
+    let zero = Sum::zero().value();
+    assert!(zero.is_zero() && !zero.is_negative() && zero.sqrt().is_zero() && (-zero).is_zero());
+    assert!((zero / one).is_zero() && (one + -one).is_zero());
+    assert_eq!(number(one + zero), Dyadic::new(1, 0));
+    assert_eq!(number(zero + one), Dyadic::new(1, 0));
+    assert_eq!(zero.to_f64(), 0.0);
+}
+
+#[test]
+fn wide_numbers_round_to_f64_once_where_normal() {
+    let mut random = Random::new(5);
+    for _ in 0..2000 {
+        let mut wide = random_wide(&mut random);
+        if wide.is_zero() {
+            continue;
+        }
+        wide.exponent = random.integer(-1100..=1030);
+        let (rounded, exact) = (wide.to_f64(), number(wide));
+        if rounded.is_normal() || rounded.is_infinite() {
+            assert_eq!(rounded, nearest(&exact, rounded), "{wide:?}");
+        } else {
+            // Rounded twice: by half a unit in the last place, and before that by very little.
+            let error = (&Dyadic::exactly(rounded) - &exact).abs();
+            assert!(error <= Dyadic::new((1_u64 << 40) + 1, -1075 - 40), "{wide:?}");
+        }
+    }
+}

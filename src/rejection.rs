@@ -1,0 +1,285 @@
+//! Early rejection: whether a ray certainly misses a sphere, in a few operations of the scene's own precision. It may let a sphere
+//! pass that the ray misses; it never rejects one that it hits.
+//!
+//! A hit with t in (0, end) is a point of the segment from the ray's origin to `end`. So a sphere is rejected where that segment
+//! stays clear of its ball: where the point of the segment nearest to the center, at t = m, is farther from it than the radius.
+//! With o = c - p, h = d·o, a = d·d, and s = a m,
+//!
+//! ```text
+//! s = h, but at least 0 and at most a end
+//! |m d - o|² - r² = (o·o - r²) - T > 0,   T = 2 h m - a m² = s (2 h - s) / a
+//! ```
+//!
+//! That rejects the spheres behind the origin and those beyond the nearest hit so far along with those beside the ray. For the
+//! whole line s = h and T = h² / a, which is quicker and goes first. Only 1 / a takes a division, and in a loop it is computed
+//! once for all spheres.
+//!
+//! **The error.** With u half an ulp of 1 (2⁻²⁴, in `f64` 2⁻⁵³) and every operation rounded,
+//!
+//! ```text
+//! o·o - r²   o twice, a product, 3 sums                 is off by at most  6 u o·o
+//!            r² a product, its factor a product, a sum  is off by at most  3 u r²
+//! h          o, a product, 2 sums                       is off by at most  4 u |o| |d|, and so T by 8 u |o| |d| m
+//! T          a 3, the quotient 1, 2 products, 2 sums    is off by at most  8 u T besides
+//! a end      a 3, a product                             is off by at most  4 u a end, and so T by 4 u T
+//! ```
+//!
+//! Now let the ray hit: o·o ≤ r² + T. With the distance q = m |d| to the point at m, that to the closest approach, h / |d| ≥ q, and
+//! that of the center from the line, at most r: |o| |d| m = q √((h / |d|)² + r²) ≤ h m + r² / 2 ≤ T + r² / 2. Together the errors
+//! are at most
+//!
+//! ```text
+//! 6 u (r² + T) + 3 u r² + 8 u (T + r² / 2) + 8 u T + 4 u T = 13 u r² + 26 u T
+//! ```
+//!
+//! So r² is made larger by `MARGIN`, 16 u, and T by twice that. The rest is far more than all terms of the second order.
+//!
+//! The last subtraction is compared with a constant, and rounding it makes no difference to that.
+//!
+//! **Underflow.** Of directions of 2⁻³⁰ to 2⁶⁰ (in `f64`, 2⁻²⁵⁰ to 2⁵⁰⁰), a is a normal number and so is 1 / a. A product that
+//! underflows is off by 2⁻¹⁵⁰ (2⁻¹⁰⁷⁵) more: in h and in a end, that is multiplied by 2 |o| / |d|, and in s / a by 2 |o| |d|,
+//! together below 2⁻⁸⁸ |o| (2⁻⁵⁷³ |o|). Either |o| < 2⁻¹² (2⁻⁴⁰⁰), and that and what is lost of the squares is below `LEAST`, which
+//! the result has to exceed, or it is far below u o·o. For all other rays, 1 / a is taken to be NaN.
+//!
+//! **Overflow and NaN.** T is never below zero where `end` is above it, so that what overflows in h or T makes the result -∞ or NaN, as
+//! does an infinite radius. What overflows in o·o makes it +∞ or NaN. Only a finite result rejects. Where `end` is not above zero
+//! nothing is hit, and any answer will do. A negative radius passes as its magnitude would: the exact routine knows.
+
+use glam::{DVec3, Mat4, Vec3, Vec4};
+
+use crate::{Ray, Scalar, Sphere, Vector};
+
+/// The constants of the derivation above in a precision.
+pub trait Bounds: Sized {
+    /// By which part of themselves r², and by twice of which T, is made larger: 16 u.
+    const MARGIN: Self;
+    /// What the result has to exceed: more than underflow can take from it.
+    const LEAST: Self;
+    /// The least and the largest square of a direction's length.
+    const SQUARES: [Self; 2];
+    /// What no ray of another length is rejected with.
+    const NAN: Self;
+}
+
+impl Bounds for f32 {
+    const MARGIN: Self = 8.0 * f32::EPSILON;
+    const LEAST: Self = f32::from_bits((127 - 99) << 23); // 2^-99
+    const SQUARES: [Self; 2] =
+        [f32::from_bits((127 - 60) << 23), f32::from_bits((127 + 120) << 23)];
+    const NAN: Self = f32::NAN;
+}
+
+impl Bounds for f64 {
+    const MARGIN: Self = 8.0 * f64::EPSILON;
+    const LEAST: Self = f64::from_bits((1023 - 970) << 52); // 2^-970
+    const SQUARES: [Self; 2] =
+        [f64::from_bits((1023 - 500) << 52), f64::from_bits((1023 + 1000) << 52)];
+    const NAN: Self = f64::NAN;
+}
+
+/// Whether the target has vectors of four numbers, so that four spheres take about as long as one.
+pub(crate) const HAS_VECTORS: bool =
+    cfg!(any(target_feature = "sse2", target_feature = "neon", target_feature = "simd128"));
+
+/// Whether the ray may hit the sphere before `end`.
+// Inlined always, as all here: so that a loop computes once what is the ray's.
+#[inline(always)]
+pub(crate) fn may_hit<V: Vector>(sphere: &Sphere<V>, ray: &Ray<V>, end: V::Scalar) -> bool {
+    may_hit_within(V::Scalar::MARGIN, sphere, ray, end)
+}
+
+/// Which of the spheres the ray may hit before `end`: the bit `1 << i` is that of `spheres[i]`.
+#[inline(always)]
+pub(crate) fn may_hit_four<V: Vector>(
+    spheres: [&Sphere<V>; 4],
+    ray: &Ray<V>,
+    end: V::Scalar,
+) -> u32 {
+    V::may_hit_four_within(V::Scalar::MARGIN, spheres, ray, end)
+}
+
+/// The rejection in a precision.
+pub trait Rejection: Sized {
+    /// [`may_hit_four`] with that margin.
+    fn may_hit_four_within(
+        margin: Self::Scalar,
+        spheres: [&Sphere<Self>; 4],
+        ray: &Ray<Self>,
+        end: Self::Scalar,
+    ) -> u32
+    where
+        Self: Vector;
+}
+
+impl Rejection for Vec3 {
+    // A vector of four is one register.
+    #[inline(always)]
+    fn may_hit_four_within(margin: f32, spheres: [&Sphere; 4], ray: &Ray, end: f32) -> u32 {
+        let [p, q, r, s] = spheres.map(|sphere| sphere.center.extend(sphere.radius));
+        let transposed = Mat4::from_cols(p, q, r, s).transpose();
+        let Mat4 { x_axis: x, y_axis: y, z_axis: z, w_axis: radius } = transposed;
+        let Ray { origin, direction } = *ray;
+        let [a, one_over_a] = squares(margin, ray);
+        let (x, y, z) = (x - origin.x, y - origin.y, z - origin.z);
+        let power = x * x + y * y + z * z - radius * radius * (1.0 + margin);
+        let h = x * direction.x + y * direction.y + z * direction.z;
+        let are_clear = |clearance: Vec4| {
+            let exceeds = clearance.cmpgt(Vec4::splat(f32::LEAST));
+            (exceeds & clearance.cmplt(Vec4::INFINITY)).bitmask()
+        };
+        // Most spheres are beside the line.
+        let beside = are_clear(power - h * one_over_a * h);
+        if beside == 0b1111 {
+            return 0;
+        }
+        let s = h.max(Vec4::ZERO).min(Vec4::splat(a * end));
+        0b1111 & !(beside | are_clear(power - s * one_over_a * ((h - s) + h)))
+    }
+}
+
+impl Rejection for DVec3 {
+    // Number by number, for the compiler to put into vectors of two.
+    #[inline(always)]
+    fn may_hit_four_within(
+        margin: f64,
+        spheres: [&Sphere<Self>; 4],
+        ray: &Ray<Self>,
+        end: f64,
+    ) -> u32 {
+        let Ray { origin, direction } = *ray;
+        let [a, one_over_a] = squares(margin, ray);
+        let x = spheres.map(|sphere| sphere.center.x - origin.x);
+        let y = spheres.map(|sphere| sphere.center.y - origin.y);
+        let z = spheres.map(|sphere| sphere.center.z - origin.z);
+        let (mut power, mut h, mut beside) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+        for i in 0..4 {
+            let radius = spheres[i].radius;
+            power[i] = x[i] * x[i] + y[i] * y[i] + z[i] * z[i] - radius * radius * (1.0 + margin);
+            h[i] = x[i] * direction.x + y[i] * direction.y + z[i] * direction.z;
+            beside[i] = power[i] - h[i] * one_over_a * h[i];
+        }
+        // Most spheres are beside the line. Their sum is finite only if all are.
+        let smaller = |a: f64, b: f64| if a < b { a } else { b };
+        let [b0, b1, b2, b3] = beside;
+        let least = smaller(smaller(b0, b1), smaller(b2, b3));
+        if least > f64::LEAST && (b0 + b1) + (b2 + b3) < f64::INFINITY {
+            return 0;
+        }
+        let mut near = 0;
+        for i in 0..4 {
+            let may_hit =
+                !is_clear(beside[i]) && is_near_segment(power[i], h[i], [a, one_over_a], end);
+            near |= u32::from(may_hit) << i;
+        }
+        near
+    }
+}
+
+#[inline(always)]
+fn may_hit_within<V: Vector>(
+    margin: V::Scalar,
+    sphere: &Sphere<V>,
+    ray: &Ray<V>,
+    end: V::Scalar,
+) -> bool {
+    let [a, one_over_a] = squares(margin, ray);
+    let o = sphere.center - ray.origin;
+    let power = o.dot(o) - sphere.radius * sphere.radius * (V::Scalar::ONE + margin);
+    let h = ray.direction.dot(o);
+    // Most spheres are beside the line.
+    !is_clear(power - h * one_over_a * h) && is_near_segment(power, h, [a, one_over_a], end)
+}
+
+/// Whether the segment up to `end` may come as near as the radius.
+#[inline(always)]
+fn is_near_segment<S: Scalar>(power: S, h: S, [a, one_over_a]: [S; 2], end: S) -> bool {
+    let longest = a * end;
+    // Comparisons that are one instruction each: `f32::clamp` looks for NaN.
+    let s = if h > S::ZERO { h } else { S::ZERO };
+    let s = if s < longest { s } else { longest };
+    !is_clear(power - s * one_over_a * ((h - s) + h))
+}
+
+/// Whether such a result rejects.
+#[inline(always)]
+fn is_clear<S: Scalar>(clearance: S) -> bool {
+    clearance > S::LEAST && clearance < S::INFINITY
+}
+
+/// a, and 1 / a made larger.
+#[inline(always)]
+fn squares<V: Vector>(margin: V::Scalar, ray: &Ray<V>) -> [V::Scalar; 2] {
+    let a = ray.direction.dot(ray.direction);
+    let [least, largest] = V::Scalar::SQUARES;
+    let is_usual = a >= least && a <= largest;
+    [a, if is_usual { (V::Scalar::ONE + margin + margin) / a } else { V::Scalar::NAN }]
+}
+
+#[cfg(test)]
+mod tests {
+    use sobol_burley::sample;
+
+    use super::*;
+    use crate::Hittable;
+
+    /// How many of the hits of random rays that graze a sphere, or end where they meet it, are rejected with that margin.
+    fn rejected<V: Vector>(margin: V::Scalar, above: fn(V::Scalar) -> V::Scalar) -> u32 {
+        const CASES: u32 = 60_000;
+        let empty = Sphere::new(V::from_f64(DVec3::splat(1e6)), V::Scalar::ZERO);
+        let mut hits = 0;
+        let mut rejected = 0;
+        for case in 0..CASES {
+            let random = |dimension| f64::from(sample(case, dimension, 1));
+            let vector = |dimension| {
+                DVec3::new(random(dimension), random(dimension + 1), random(dimension + 2))
+                    - DVec3::splat(0.5)
+            };
+            let direction = vector(0);
+            let outward = direction.cross(vector(3)).normalize_or(DVec3::X);
+            let center = vector(6) * 10.0;
+            let radius = 0.01 + random(9) * random(9);
+            let at_the_limb = 1.0 - V::Scalar::MARGIN.into() * random(10);
+            let closest =
+                if case % 2 == 0 { at_the_limb } else { random(10) * at_the_limb } * radius;
+            let origin = center + outward * closest - direction * (20.0 * random(11));
+
+            let sphere = Sphere::new(V::from_f64(center), V::Scalar::from_f64(radius));
+            let ray = Ray::new(V::from_f64(origin), V::from_f64(direction));
+            let all = V::Scalar::ZERO..V::Scalar::INFINITY;
+            let Some(hit) = sphere.intersect(&ray, all) else { continue };
+            for end in [V::Scalar::INFINITY, above(hit.t)] {
+                hits += 1;
+                let one = may_hit_within(margin, &sphere, &ray, end);
+                let mut four = [&empty; 4];
+                let place = case % 4;
+                four[place as usize] = &sphere;
+                let near = V::may_hit_four_within(margin, four, &ray, end);
+                assert_eq!(near & !(1 << place), 0, "a point far away passed");
+                assert_eq!(near != 0, one, "one is not as four are: {sphere:?}, {ray:?}, {end}");
+                rejected += u32::from(!one);
+            }
+        }
+        assert!(hits > CASES / 2);
+        rejected
+    }
+
+    fn above_f32(t: f32) -> f32 {
+        f32::from_bits(t.to_bits() + 1)
+    }
+
+    fn above_f64(t: f64) -> f64 {
+        f64::from_bits(t.to_bits() + 1)
+    }
+
+    #[test]
+    fn rejects_no_sphere_that_is_hit() {
+        assert_eq!(rejected::<Vec3>(f32::MARGIN, above_f32), 0);
+        assert_eq!(rejected::<DVec3>(f64::MARGIN, above_f64), 0);
+    }
+
+    #[test]
+    fn needs_its_margin() {
+        assert!(rejected::<Vec3>(0.0, above_f32) > 0);
+        assert!(rejected::<DVec3>(0.0, above_f64) > 0);
+    }
+}

@@ -1,0 +1,261 @@
+use super::*;
+use crate::algebraic::Quadratic;
+use crate::arithmetic::number::Triple;
+use crate::root::chord::Derivation;
+use crate::root::crossing::Found;
+use crate::root::format::Format;
+use crate::root::plain::{Both, both};
+use crate::root::tests::{ExactLine, difference, length, line, parts_of_tolerance};
+use crate::testing::{
+    Dyadic, ExactChord, Lie, Random, exactly, nearest, part_of_bound, search, setting,
+};
+
+/// A line and a sphere, and the roots of the first step.
+struct Case {
+    numbers: [f64; 10],
+    line: Line,
+    o: DVec3,
+    chord: Chord<f64>,
+    radius_squared: f64,
+}
+
+impl Case {
+    fn new(numbers: [f64; 10]) -> Self {
+        let line = line(numbers);
+        let o = line.center - line.origin;
+        let radius_squared = line.radius * line.radius;
+        let chord = Quadratic::chord(Triple::from(o), line.direction.into(), radius_squared);
+        Self { numbers, line, o, chord, radius_squared }
+    }
+
+    fn correction(&self) -> Correction {
+        Correction::new(self.line, self.o, &self.chord, self.radius_squared)
+    }
+
+    fn larger(&self) -> f64 {
+        self.chord.distance_squared.max(self.radius_squared)
+    }
+
+    /// The roots of the first step, and half the chord.
+    fn roots(&self) -> Option<([f64; 2], f64)> {
+        match both(&self.chord, self.radius_squared, CLEAR) {
+            Both::Roots { t, half_chord } => Some((t, half_chord)),
+            _ => None,
+        }
+    }
+}
+
+fn search_settings(
+    what: &str,
+    lies: &[Lie],
+    part: impl Fn(&ExactChord, &Case) -> Option<f64>,
+) -> f64 {
+    let start = |random: &mut Random| {
+        let lie = lies[random.below(lies.len())];
+        setting(random, lie)
+    };
+    search(what, 60, 200, start, |numbers| part(&ExactChord::new(numbers), &Case::new(numbers)))
+}
+
+const LIES: [Lie; 8] = [
+    Lie { power: 0.99, discriminant: 1e-4 },
+    Lie { power: 0.5, discriminant: 0.5 },
+    Lie { power: 1e-4, discriminant: 1e-4 },
+    Lie { power: -0.9, discriminant: 0.95 },
+    Lie { power: 1e-4, discriminant: 0.9998 },
+    Lie { power: -1e-4, discriminant: 0.9999 },
+    // As little clear of doubt as may be.
+    Lie { power: 3e-3, discriminant: 1e-4 },
+    Lie { power: 0.5, discriminant: 1.5e-9 },
+];
+
+/// Where s t is as small as it may be, beside r √m.
+const LEAST_WAY: [Lie; 4] = [
+    Lie { power: 1e-3, discriminant: 0.999 },
+    Lie { power: 0.5, discriminant: 1.1e-6 },
+    Lie { power: 2.4e-3, discriminant: 2.4e-3 },
+    Lie { power: -1e-3, discriminant: 0.002 },
+];
+
+#[test]
+fn the_constants_are_those_of_the_analysis() {
+    assert_eq!(RESIDUAL_ERROR, 2_f64.powi(-72));
+    assert_eq!(SLOPE_ERROR, 2_f64.powi(-51));
+    assert_eq!(OFFSET_ERROR, 2_f64.powi(-74));
+    assert_eq!(ROOT_ERROR, 1.5 * 2_f64.powi(-62));
+    assert_eq!(CLEAR_OF_RESIDUAL, 2_f64.powi(-20));
+}
+
+#[test]
+fn splitters_are_above_the_root_of_the_square() {
+    let mut random = Random::new(1);
+    for _ in 0..5000 {
+        let square = random.float(-480..=480).abs();
+        let power = splitter(square) / (1.5 * 2_f64.powi(26));
+        assert_eq!(power.to_bits() & ((1 << 52) - 1), 0, "no power of two: {square:e}");
+        let [least, exact] = [Dyadic::exactly(power), Dyadic::exactly(square)];
+        assert!(&least * &least >= exact, "{square:e}");
+        assert!((&least * &least).scaled(-4) < exact, "{square:e}");
+    }
+}
+
+#[test]
+fn dot_products_of_high_parts_are_exact() {
+    let mut random = Random::new(2);
+    for round in 0..5000 {
+        let vector = match round % 4 {
+            // The longest of 26 bits, in any direction or along an axis.
+            0 => DVec3::splat((1.0 - U) / 3_f64.sqrt()) * random.mantissa(),
+            1 => DVec3::X * (2.0 - 2.0 * U),
+            _ => DVec3::from([0; 3].map(|_| random.float(-30..=0))),
+        };
+        let splitter = splitter(vector.length_squared());
+        let Halves { high, low } = Halves::new(vector, splitter);
+        let unit = splitter / 1.5 / 2_f64.powi(52);
+        for axis in 0..3 {
+            assert_eq!(
+                &Dyadic::exactly(high[axis]) + &Dyadic::exactly(low[axis]),
+                Dyadic::exactly(vector[axis])
+            );
+            assert!(low[axis].abs() <= unit / 2.0 * (1.0 + U), "{vector}");
+            let places = high[axis] / unit;
+            assert_eq!(places, places.round(), "a multiple of the unit");
+            assert!(places.abs() <= 2_f64.powi(26), "26 bits");
+        }
+        let [x, y, z] = high.to_array().map(|x| x * x);
+        let exact = length_squared(high);
+        for sum in [(x + y) + z, (x + z) + y, (y + z) + x] {
+            assert_eq!(Dyadic::exactly(sum), exact, "{vector}");
+        }
+        assert_eq!(Dyadic::exactly(high.dot(high)), exact, "{vector}");
+    }
+}
+
+fn length_squared(vector: DVec3) -> Dyadic {
+    let square = |x: f64| &Dyadic::exactly(x) * &Dyadic::exactly(x);
+    &(&square(vector.x) + &square(vector.y)) + &square(vector.z)
+}
+
+#[test]
+fn powers_keep_their_bound() {
+    let lies = [1e-3, -1e-3, 1e-10, -1e-10, 1e-12, 1e-16, -1e-18, 0.5, -0.5]
+        .map(|power| Lie { power, discriminant: 0.5 });
+    let part = |exact: &ExactChord, case: &Case| {
+        let computed = Dyadic::exactly(power(case.line, case.o, case.larger()));
+        let rounding = &Dyadic::exactly(U) * &exact.power.clone().abs();
+        let error = &(&computed - &exact.power).abs() - &rounding;
+        let bound = exact.larger().scaled(-76);
+        Some(error.max(Dyadic::ZERO).divided_by(&bound, 64).approximately())
+    };
+    assert!(search_settings("power from halves", &lies, part) > 0.03);
+}
+
+#[test]
+fn corrected_roots_keep_their_bound() {
+    let part = |exact: &ExactChord, case: &Case| {
+        let (roots, half_chord) = case.roots()?;
+        let expected = exact.roots().expect("this hits");
+        let correction = case.correction();
+        let size = case.radius_squared * case.larger();
+        let parts = [0, 1].map(|side: usize| {
+            let way = half_chord * roots[side];
+            let corrected = correction.correct(roots[side]);
+            let expected = &expected[side];
+            if let Some(sure) = correction.correct_surely(roots[side], half_chord, size) {
+                let correct = nearest(expected, sure.t.hi);
+                assert_eq!(sure.t.hi, correct, "{:?}", case.numbers);
+            }
+            if way * way <= CLEAR_OF_RESIDUAL * size {
+                assert!(correction.correct_surely(roots[side], half_chord, size).is_none());
+                return 0.0;
+            }
+            let bound = &Dyadic::exactly(ROOT_ERROR) * &expected.clone().abs();
+            part_of_bound(&exactly(corrected.t), expected, &bound)
+        });
+        Some(parts[0].max(parts[1]))
+    };
+    assert!(search_settings("corrected root", &LIES, part) > 0.014);
+    assert!(search_settings("corrected root, the least way", &LEAST_WAY, part) > 0.02);
+}
+
+#[test]
+fn residuals_keep_their_bound() {
+    // From the number nearest to a root, what is left after the correction is what the residual errs by, and the slope.
+    let part = |exact: &ExactChord, case: &Case| {
+        let expected = exact.roots()?;
+        let half_chord = exact.discriminant.square_root(200);
+        let radius = Dyadic::exactly(case.line.radius);
+        let residual = &(&Dyadic::exactly(RESIDUAL_ERROR) * &radius)
+            * &exact.larger().square_root(100).divided_by(&half_chord, 100);
+        let slope = &(&Dyadic::exactly(SLOPE_ERROR) * &radius)
+            * &exact.a.square_root(100).divided_by(&half_chord, 100);
+        let parts = [0, 1].map(|side: usize| {
+            let t = expected[side].approximately();
+            let corrected = case.correction().correct(t);
+            let step = (&Dyadic::exactly(t) - &expected[side]).abs();
+            let bound = &residual + &(&slope * &step);
+            part_of_bound(&exactly(corrected.t), &expected[side], &bound)
+        });
+        Some(parts[0].max(parts[1]))
+    };
+    assert!(search_settings("residual", &LIES, part) > 0.06);
+}
+
+#[test]
+fn slopes_keep_their_bound() {
+    let part = |exact: &ExactChord, case: &Case| {
+        let (roots, _) = case.roots()?;
+        let size = &exact.radius_squared().square_root(100) * &exact.a.square_root(100);
+        let bound = &Dyadic::exactly(SLOPE_ERROR) * &size;
+        let parts = roots.map(|t| {
+            let Halves { high, low } = case.correction().correct(t).w;
+            let computed = (high + low).dot(case.line.direction);
+            let slope = &(&exact.a * &Dyadic::exactly(t)) - &exact.h;
+            part_of_bound(&Dyadic::exactly(computed), &slope, &bound)
+        });
+        Some(parts[0].max(parts[1]))
+    };
+    assert!(search_settings("slope", &LIES, part) > 0.2);
+}
+
+#[test]
+fn offsets_keep_their_bound() {
+    let part = |exact: &ExactChord, case: &Case| {
+        let (roots, _) = case.roots()?;
+        let bound = &Dyadic::exactly(OFFSET_ERROR) * &exact.larger().square_root(100);
+        let exact = ExactLine::new(case.numbers);
+        let parts = roots.map(|t| {
+            let Halves { high, low } = case.correction().correct(t).w;
+            let w = [0, 1, 2]
+                .map(|axis: usize| &Dyadic::exactly(high[axis]) + &Dyadic::exactly(low[axis]));
+            let error = length(&difference(&w, &exact.offset(&Dyadic::exactly(t))));
+            error.divided_by(&bound, 64).approximately()
+        });
+        Some(parts[0].max(parts[1]))
+    };
+    assert!(search_settings("offset", &LIES, part) > 0.06);
+}
+
+#[test]
+fn points_keep_their_tolerance() {
+    let part = |exact: &ExactChord, case: &Case| {
+        let (roots, half_chord) = case.roots()?;
+        let expected = exact.roots().expect("this hits");
+        let size = case.radius_squared * case.larger();
+        let parts = [0, 1].map(|side: usize| {
+            let correction = case.correction();
+            let Some(sure) = correction.correct_surely(roots[side], half_chord, size) else {
+                return 0.0;
+            };
+            let (point, normal) = (sure.point(), sure.offset() / case.line.radius);
+            let found = Found { t: sure.t.hi, point, normal };
+            let tolerance = Format::F64.point_tolerance();
+            let [point, normal] =
+                parts_of_tolerance(case.numbers, &expected[side], &found, tolerance);
+            point.max(normal)
+        });
+        Some(parts[0].max(parts[1]))
+    };
+    assert!(search_settings("point of a corrected root", &LIES, part) > 0.5);
+    search_settings("point of a corrected root, the least way", &LEAST_WAY, part);
+}

@@ -1,0 +1,165 @@
+use super::*;
+use crate::algebraic::Quadratic;
+use crate::float::sqrt;
+use crate::root::chord::Derivation;
+use crate::root::format::Format;
+use crate::root::tests::{line, parts_of_tolerance};
+use crate::testing::{Dyadic, ExactChord, Lie, Random, exactly, part_of_bound, search, setting};
+
+fn search_settings(
+    what: &str,
+    lies: &[Lie],
+    part: impl Fn(&ExactChord, [f64; 10]) -> Option<f64>,
+) -> f64 {
+    let start = |random: &mut Random| {
+        let lie = lies[random.below(lies.len())];
+        setting(random, lie)
+    };
+    search(what, 80, 250, start, |numbers| part(&ExactChord::new(numbers), numbers))
+}
+
+fn chord(line: &Line) -> (Chord<f64>, f64, f64) {
+    let radius_squared = line.radius * line.radius;
+    let o = Triple::from(line.center - line.origin);
+    let chord = Quadratic::chord(o, line.direction.into(), radius_squared);
+    (chord, sqrt(chord.discriminant), chord.distance_squared.max(radius_squared))
+}
+
+fn part_of_power(exact: &ExactChord, numbers: [f64; 10]) -> f64 {
+    let line = line(numbers);
+    let (computed, error) = power(line.o(), line.radius);
+    assert_eq!(computed.hi + computed.lo, computed.hi, "normalized: {numbers:?}");
+    // No larger than it has to be: close to the surface, hardly more than the last place of the power.
+    let larger = exact.larger().approximately();
+    let is_close = computed.hi.abs() < larger / 2_f64.powi(31);
+    let most = if is_close {
+        1501.0 * U * V * larger + 2.1 * V * computed.hi.abs()
+    } else {
+        41.0 * V * larger
+    };
+    assert!(error <= most, "{error:e} for {:e}: {numbers:?}", computed.hi);
+    // Farther away, the finer sum is not worth its time.
+    let is_far = computed.hi.abs() > larger / 2_f64.powi(29);
+    assert!(!is_far || error >= 39.0 * V * larger, "{error:e} for {:e}", computed.hi);
+    part_of_bound(&exactly(computed), &exact.power, &Dyadic::exactly(error))
+}
+
+#[test]
+fn powers_in_pairs_keep_their_bound() {
+    // Where the power is more than 2^-30 of the square.
+    let lies = [0.9, 0.1, 1e-6, 1e-9, -0.9, -0.1, -1e-6, -1e-9]
+        .map(|power| Lie { power, discriminant: 0.05 });
+    let part = |exact: &ExactChord, numbers| Some(part_of_power(exact, numbers));
+    assert!(search_settings("power in pairs", &lies, part) > 0.1);
+}
+
+#[test]
+fn powers_in_three_floats_keep_their_bound() {
+    let lies = [1e-10, 1e-14, 1e-16, 0.0, -1e-10, -1e-14, -1e-16]
+        .map(|power| Lie { power, discriminant: 0.5 });
+    let part = |exact: &ExactChord, numbers| Some(part_of_power(exact, numbers));
+    assert!(search_settings("power in three floats", &lies, part) > 0.1);
+}
+
+#[test]
+fn powers_that_vanish_vanish() {
+    for numbers in [
+        [3.0, 4.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 5.0],
+        [1.0, 2.0, 2.0, 1e-30, 0.0, 0.0, 1.0, 0.0, 0.0, 3.0],
+        [1.0, 2.0, 2.0, 1e-17, -1e-18, 1e-20, 1.0, 0.0, 0.0, 3.0],
+        [0.1, 0.2, 0.3, 0.1, 0.2, 0.3 - 1e-5, 1.0, 0.0, 0.0, 0.3 - (0.3 - 1e-5)],
+    ] {
+        let exact = ExactChord::new(numbers);
+        assert!(part_of_power(&exact, numbers) <= 1.0, "{numbers:?}");
+    }
+    let exact = power(line([3.0, 4.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 5.0]).o(), 5.0);
+    assert_eq!(exact.0, Pair { hi: 0.0, lo: 0.0 });
+}
+
+const SMALL: [Lie; 10] = [
+    // As little of a chord as may be, and as much of a power.
+    Lie { power: 4.6e-7, discriminant: 7.8e-6 },
+    Lie { power: -5.1e-7, discriminant: 8.6e-6 },
+    Lie { power: 0.03, discriminant: 0.5 },
+    Lie { power: -0.03, discriminant: 0.6 },
+    Lie { power: 1e-9, discriminant: 0.5 },
+    Lie { power: -1e-9, discriminant: 1e-5 },
+    Lie { power: 1e-14, discriminant: 1e-5 },
+    Lie { power: -1e-14, discriminant: 0.5 },
+    Lie { power: 1e-16, discriminant: 0.9 },
+    Lie { power: -1e-16, discriminant: 1e-4 },
+];
+
+/// The small root of a line that starts close to the surface, its exact value, and the line.
+fn small(exact: &ExactChord, numbers: [f64; 10]) -> Option<(Estimate, Dyadic)> {
+    let line = line(numbers);
+    let (chord, half_chord, larger) = chord(&line);
+    if !is_close(&chord, half_chord, larger) {
+        return None;
+    }
+    let power = power(line.o(), line.radius);
+    if power.1 > 0.25 * power.0.hi.abs() {
+        return None;
+    }
+    let root = small_root(line.o(), line.direction.into(), &chord, half_chord, power);
+    let [near, far] = exact.roots().expect("a chord");
+    let small = if near.clone().abs() < far.clone().abs() { near } else { far };
+    Some((root, small))
+}
+
+#[test]
+fn small_roots_keep_their_bound() {
+    let part = |exact: &ExactChord, numbers| {
+        let (Estimate { t, relative_error, .. }, expected) = small(exact, numbers)?;
+        let bound = &Dyadic::exactly(relative_error) * &expected.clone().abs();
+        Some(part_of_bound(&exactly(t), &expected, &bound))
+    };
+    assert!(search_settings("small root", &SMALL, part) > 0.002);
+
+    // By what is left where the power is that good, the bound of the rest is looked at alone.
+    let part = |exact: &ExactChord, numbers| {
+        let (Estimate { t, .. }, expected) = small(exact, numbers)?;
+        let (_, power_error) = power(line(numbers).o(), line(numbers).radius);
+        let power_error = Dyadic::exactly(power_error).divided_by(&exact.power, 100).abs();
+        let bound = &(&Dyadic::exactly(ROOT_ERROR) + &power_error) * &expected.clone().abs();
+        Some(part_of_bound(&exactly(t), &expected, &bound))
+    };
+    assert!(search_settings("small root, least chord", &SMALL[..2], part) > 0.0);
+}
+
+#[test]
+fn what_is_close_has_a_chord_and_a_small_root() {
+    // Within a thousandth of a |power| = h² / 17 and of 2 s² = 2^-16 a m.
+    let close = |lie: Lie| {
+        let line = line(setting(&mut Random::new(3), lie));
+        let (chord, half_chord, larger) = chord(&line);
+        is_close(&chord, half_chord, larger)
+    };
+    let least = CLEAR / 2.0;
+    assert!(close(Lie { power: 1e-9, discriminant: 1.01 * least }));
+    assert!(!close(Lie { power: 1e-9, discriminant: 0.99 * least }));
+    // h² = (discriminant + power) a m.
+    let part = |part: f64| Lie { power: 0.5 * part / (1.0 - part), discriminant: 0.5 };
+    assert!(close(part(0.99 / 17.0)) && !close(part(1.01 / 17.0)));
+    let part = |part: f64| Lie { power: -0.5 * part / (1.0 + part), discriminant: 0.5 };
+    assert!(close(part(0.99 / 17.0)) && !close(part(1.01 / 17.0)));
+    let nan = Chord { a: f64::NAN, h: 1.0, distance_squared: 1.0, power: 0.0, discriminant: 1.0 };
+    assert!(!is_close(&nan, 1.0, 1.0));
+}
+
+#[test]
+fn points_keep_their_tolerance() {
+    let part = |exact: &ExactChord, numbers| {
+        let (Estimate { t, relative_error, .. }, expected) = small(exact, numbers)?;
+        // As certain as rounding needs, too.
+        if relative_error > f64::EPSILON / 1000.0 {
+            return None;
+        }
+        let line = line(numbers);
+        let found = hit(line, line.o(), t, t.hi);
+        let tolerance = Format::F64.point_tolerance();
+        let [point, normal] = parts_of_tolerance(numbers, &expected, &found, tolerance);
+        Some(point.max(normal))
+    };
+    assert!(search_settings("point close to the surface", &SMALL, part) > 0.5);
+}
