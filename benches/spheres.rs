@@ -9,7 +9,7 @@
 //!
 //! With `RUSTFLAGS='--cfg eyeray_lanes="avx2"'`, eyeray does without AVX-512, and with `"compiled"` without AVX2 too.
 //!
-//! Half of the rays come from an eye, half bounce off what those meet. The loops are those that path tracers have: a formula
+//! Half of the rays are eye rays, half are bounce rays from their hits. The loops are those that path tracers have: a formula
 //! for each sphere in turn, the nearest so far as the range's end, and the point and the normal of the nearest at last.
 #![allow(missing_docs, reason = "criterion's macros make public functions")]
 
@@ -128,7 +128,7 @@ fn within(rng: &mut Rng, extent: f64) -> Vec3 {
 /// Goes through the rays of a scene.
 type Pass = PassOver<Scene>;
 
-/// A pass that stores what is found of each ray.
+/// A pass that stores the result of each ray.
 fn pass<T>(find: impl Fn(&Scene, &Ray) -> T + Sync + 'static) -> Pass {
     Box::new(move |scene| {
         for ray in &scene.rays {

@@ -56,7 +56,7 @@ fn things_of_several_kinds_share_a_scene() {
     check(&slice);
 }
 
-/// What `occludes` is asked of a holder is asked of what it holds, which may know a shorter way.
+/// A container forwards `occludes` to its content, which may have a faster implementation than the default.
 #[test]
 fn occlusion_is_passed_on() {
     struct Fog;

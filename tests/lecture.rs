@@ -1,6 +1,6 @@
 //! The lecture, formula by formula, with values that can be checked by hand.
 //!
-//! S. Marschner, CS4620 lecture 6, ray tracing: what a ray is, which rays a camera makes, and where a ray meets a sphere
+//! S. Marschner, CS4620 lecture 6, ray tracing: rays, the eye rays of a camera, and the intersection of a ray with a sphere
 //! by the algebraic and by the geometric derivation.
 
 use eyeray::{Camera, CameraError, Hittable, Ray, Sphere, ViewRect};
@@ -194,7 +194,7 @@ fn only_what_is_ahead_is_hit() {
     assert_eq!(hit(-1.0), None);
 }
 
-/// The whole of it: the eye ray of a pixel, and where it meets the sphere.
+/// Both together: the eye ray of a pixel, and its hit with the sphere.
 #[test]
 fn an_eye_ray_meets_the_sphere() -> Result<(), CameraError> {
     let view = ViewRect::centered(6.0, 6.0);

@@ -132,7 +132,7 @@ fn is_a_collection() {
     assert!(SphereBvh::default().is_empty());
 }
 
-/// Spheres that no one can meet, or too many that everyone may, are no trouble for the hierarchy.
+/// The hierarchy handles spheres that no ray can hit, and more large spheres than it keeps apart.
 #[test]
 fn hostile_scenes_are_sorted_too() {
     let ray = Ray::new(Vec3::NEG_X * 9.0, Vec3::X);

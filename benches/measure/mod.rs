@@ -75,7 +75,7 @@ pub enum Start {
 /// Whether an answer is promised to a case.
 pub type Promise<V> = fn(&Case<V>, Start) -> bool;
 
-/// What is asked of each case in a row, the answers stored one after the other.
+/// A test of each case in a row, whose results are stored one after the other.
 ///
 /// There is one loop, which calls the test in one place: what is timed is what is judged. A closure that is called in two
 /// places is not inlined into either, and then a call, and an answer by way of memory, is most of a fast test's time.
@@ -119,11 +119,11 @@ impl<V: Measured, T> Timed<V> for Test<V, T> {
     }
 }
 
-/// A way to find where a ray meets a sphere first.
+/// A method of finding the first hit of a ray on a sphere.
 pub struct Method<V: Measured> {
     /// Its short name.
     pub name: &'static str,
-    /// Where it comes from, and what it does not promise.
+    /// Its source, and its limits.
     pub source: &'static str,
     pub kind: Kind,
     /// Whether it promises an answer.

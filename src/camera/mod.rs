@@ -153,7 +153,7 @@ use pixels::Axis;
 ///   point: small unless the point is far from the middle of the view;
 /// - [`project_to_pixel`](Self::project_to_pixel) by the error of u or v, in pixels, and by 4 h of itself.
 ///
-/// `cargo test --test camera accuracy`, in the repository, compares all of them with exact integer arithmetic.
+/// `cargo test --test camera accuracy` compares all of them with exact integer arithmetic.
 ///
 /// A camera uses only sums, products, quotients and square roots, so it is the same on every machine. The exception is the tangent
 /// of [`perspective_fov`](Self::perspective_fov), which is the same on every machine with the feature `libm`.

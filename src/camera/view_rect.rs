@@ -10,6 +10,8 @@ use crate::Scalar;
 /// straight ahead of the eye. The rectangle need not be centered there, nor contain that point: an off-center rectangle is used
 /// for shifted views, as in architectural photographs, for stereo, and for rendering an image in tiles.
 ///
+/// In S. Marschner's CS4620 lecture 6 the sides are called l, r, b and t.
+///
 /// Any value is allowed in the fields. The constructors of cameras return an error unless `left < right` and `bottom < top`.
 ///
 /// ```

@@ -27,8 +27,8 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 ///
 /// For two spheres or more, up to some hundred, or for any number that changes: spheres can be added, changed and removed one by one.
 /// The time of a query is proportional to their number. For more than some hundred that stay as they are,
-/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. (`cargo bench --bench spheres`, in the repository,
-/// measures 1 to 65,536.)
+/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. (`cargo bench --bench spheres` measures 1
+/// to 65,536.)
 ///
 /// # Instructions
 ///

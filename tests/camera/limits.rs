@@ -1,4 +1,4 @@
-//! What is not finite, what is zero, and what is nearly so: both cameras, both precisions, each coordinate.
+//! Infinite, NaN, zero and nearly zero input: both cameras, both precisions, each coordinate.
 
 use eyeray::{Camera, CameraError, Frame, Hittable, Ray, Scalar, Sphere, Vector, ViewRect};
 use glam::{DVec2, DVec3, Vec2, Vec3, dvec2, dvec3, vec2};
