@@ -237,3 +237,20 @@ fn one_is_one() {
     sum.add_factors(1, [Factor::ONE, Factor::new(0, 5), Factor::ONE, Factor::ONE]);
     assert!(sum.used.is_empty() || sum.sign().is_eq());
 }
+
+#[test]
+fn a_carry_runs_through_all_digits() {
+    // Blocks of 54 ones, and one more, which leaves a single bit.
+    for times in [1, -1] {
+        for first in 0..64 {
+            let mut sum = Sum::zero();
+            for block in 0..15 {
+                let ones = Factor::new((1 << 54) - 1, first + 54 * block);
+                sum.add_factors(times, [ones, Factor::ONE, Factor::ONE, Factor::ONE]);
+            }
+            let one = Factor::new(1, first);
+            sum.add_factors(times, [one, Factor::ONE, Factor::ONE, Factor::ONE]);
+            assert_eq!(number(sum.value()), Dyadic::new(times, i64::from(first) + 54 * 15));
+        }
+    }
+}

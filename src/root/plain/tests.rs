@@ -361,3 +361,68 @@ fn odd_arguments_are_no_hits() {
         assert!(!nearest && !both, "{o}");
     }
 }
+
+#[test]
+fn units_of_length_and_of_the_direction_change_nothing() {
+    let lies = [
+        Lie { power: 0.5, discriminant: 0.3 },
+        Lie { power: 0.5, discriminant: 1e-13 },
+        Lie { power: 0.5, discriminant: -1e-13 },
+        Lie { power: 0.5, discriminant: 3e-15 },
+        Lie { power: 1e-9, discriminant: 0.5 },
+        Lie { power: -1e-9, discriminant: 0.5 },
+        Lie { power: 1e-14, discriminant: 1e-13 },
+        Lie { power: -0.5, discriminant: 0.7 },
+    ];
+    let mut random = Random::new(7);
+    for _ in 0..2000 {
+        let lie = lies[random.below(lies.len())];
+        let numbers = setting(&mut random, lie);
+        let [lengths, directions] = [0; 2].map(|_| random.integer(-60..=60));
+        let mut scaled = numbers;
+        for (index, number) in scaled.iter_mut().enumerate() {
+            *number *= 2_f64.powi(if (6..9).contains(&index) { directions } else { lengths });
+        }
+        let [here, there] = [numbers, scaled].map(Case::new::<Quadratic>);
+        let ask = |case: &Case, power: f64| {
+            nearest_ahead(&case.chord, case.radius_squared, in_f32::CLEAR, || Some(power))
+        };
+        let power = here.worst_fine_power(1);
+        let in_units = |t: f64| t * 2_f64.powi(lengths - directions);
+        let same = match (ask(&here, power), ask(&there, power * 2_f64.powi(2 * lengths))) {
+            (Nearest::Miss, Nearest::Miss) | (Nearest::Doubt, Nearest::Doubt) => true,
+            (Nearest::Root { t, .. }, Nearest::Root { t: found, .. }) => in_units(t) == found,
+            (Nearest::Rough { t, error }, Nearest::Rough { t: found, error: found_error }) => {
+                in_units(t) == found && in_units(error) == found_error
+            }
+            _ => false,
+        };
+        assert!(same, "2^{lengths} 2^{directions} {numbers:?}");
+        let same = match (
+            both(&here.chord, here.radius_squared, in_f32::CLEAR),
+            both(&there.chord, there.radius_squared, in_f32::CLEAR),
+        ) {
+            (Both::Miss, Both::Miss) | (Both::Doubt, Both::Doubt) => true,
+            (Both::Roots { t, .. }, Both::Roots { t: found, .. }) => t.map(in_units) == found,
+            _ => false,
+        };
+        assert!(same, "2^{lengths} 2^{directions} {numbers:?}");
+    }
+}
+
+#[test]
+fn clear_cases_are_not_in_doubt() {
+    let mut random = Random::new(8);
+    for (power, discriminant) in [(0.5, -1e-3), (0.5, -1e-14), (0.9, -1e-10)] {
+        for _ in 0..100 {
+            let numbers = setting(&mut random, Lie { power, discriminant });
+            for case in [Case::new::<Quadratic>(numbers), Case::new::<ClosestApproach>(numbers)] {
+                let Case { chord, radius_squared, .. } = case;
+                let nearest = nearest_ahead(&chord, radius_squared, in_f32::CLEAR, || None);
+                assert!(matches!(nearest, Nearest::Miss), "{numbers:?}");
+                let both = both(&chord, radius_squared, in_f32::CLEAR);
+                assert!(matches!(both, Both::Miss), "{numbers:?}");
+            }
+        }
+    }
+}

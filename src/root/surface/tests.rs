@@ -38,6 +38,7 @@ fn part_of_power(exact: &ExactChord, numbers: [f64; 10]) -> f64 {
         41.0 * V * larger
     };
     assert!(error <= most, "{error:e} for {:e}: {numbers:?}", computed.hi);
+    assert!(error >= 1499.0 * U * V * larger, "{error:e} for {:e}: {numbers:?}", computed.hi);
     // Farther away, the finer sum is not worth its time.
     let is_far = computed.hi.abs() > larger / 2_f64.powi(29);
     assert!(!is_far || error >= 39.0 * V * larger, "{error:e} for {:e}", computed.hi);
