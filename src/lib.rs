@@ -62,9 +62,9 @@
 //! # Features
 //!
 //! - `std` (default): square roots from the hardware, and `alloc`.
-//! - `libm`: square roots from the [libm](https://docs.rs/libm) crate, for `no_std`. One of `std` and `libm` is needed. `intersect` of a
-//!   [`Sphere`] takes 41 kB of a Cortex-M4F's code in `f32`, 48 kB in `f64` and 69 kB in both, optimized for size and with the
-//!   `f64` arithmetic that its hardware lacks (`tests/targets/run`, in the repository).
+//! - `libm`: square roots from the [libm](https://docs.rs/libm) crate, for `no_std`. One of `std` and `libm` is needed. On a
+//!   Cortex-M4F, `intersect` of a [`Sphere`] takes TODO-FIGURE kB more code than the textbook's formula in `f32`, TODO-FIGURE kB in
+//!   `f64` and TODO-FIGURE kB in both, optimized for size (`tests/targets/run`, in the repository).
 //! - `alloc`: [`Spheres`] and [`SphereBvh`], and [`Hittable`] for `Vec`, `Box`, `Rc` and `Arc`. Implied by `std`.
 //! - `serde`: `Serialize` and `Deserialize` for all data types. A [`Camera`] is validated when it is deserialized. It is read bit for
 //!   bit by a format that reads each `f64` so: `serde_json` needs its feature `float_roundtrip` for that.

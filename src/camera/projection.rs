@@ -20,17 +20,17 @@ struct Seen {
     scale: f64,
 }
 
-/// What is below can be subtracted, and multiplied by unit vectors and summed up, without overflow.
+/// Vectors with coordinates up to this can be subtracted, and multiplied by unit vectors, without overflow.
 const LARGE: f64 = f64::MAX * DOWN;
 const DOWN: f64 = 0.125;
 
-/// 2⁻⁵¹²: the products of what is below with unit vectors might lose digits among the subnormal numbers.
+/// 2⁻⁵¹²: products of smaller vectors and unit vectors might lose digits, because they are subnormal.
 const SMALL: f64 = f64::from_bits(0x1ff0_0000_0000_0000);
 /// 2⁶⁰⁰.
 const UP: f64 = f64::from_bits(0x6570_0000_0000_0000);
 
 impl<V: Vector> Frame<V> {
-    /// Where the point is from the eye. Of a point that is not finite, nothing that is.
+    /// The point as seen from the eye. Not finite if the point is not.
     fn see(&self, point: DVec3) -> Seen {
         let eye = self.eye;
         let (from_eye, scale) = if largest(point).max(largest(eye)) > LARGE {
@@ -70,7 +70,7 @@ impl<V: Vector> Camera<V> {
     }
 }
 
-/// The largest coordinate, sign apart.
+/// The largest absolute value of a coordinate.
 fn largest(vector: DVec3) -> f64 {
     vector.abs().max_element()
 }

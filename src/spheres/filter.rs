@@ -11,7 +11,7 @@
 //! ```
 //!
 //! That drops the spheres behind the origin and those beyond the nearest hit so far along with those beside the ray. For the
-//! whole line s = h and T = h² / a, which is quicker: it goes first where there are many spheres. For the half line there is no
+//! whole line s = h and T = h² / a, which is quicker: it goes first where there are many spheres. For the half-line there is no
 //! end: that is enough where there are few.
 //!
 //! **The error.** With u = 2⁻²⁴ and every operation rounded (a fused multiply-add rounds less),
@@ -108,7 +108,7 @@ impl Block {
         self.negative_radius_squared[lane] = f32::INFINITY;
     }
 
-    /// The spheres that the ray may meet before the segment's end, a bit for each.
+    /// The spheres that the ray may hit before the segment's end, a bit for each.
     #[inline(always)]
     pub(crate) fn near_segment<I: Instructions>(
         &self,
@@ -129,7 +129,7 @@ impl Block {
         instructions.signs(&clearance)
     }
 
-    /// Whether there is a sphere that the whole line may meet, ahead or behind.
+    /// Whether there is a sphere that the whole line may hit, ahead or behind.
     #[inline(always)]
     pub(crate) fn is_near_line<I: Instructions>(&self, instructions: I, segment: &Segment) -> bool {
         let mut clearance = [0.0; LANES];
@@ -159,7 +159,7 @@ impl Block {
         (power, instructions.multiply_add(direction.z, z, h))
     }
 
-    /// Which of the first [`FEW`] spheres the half line may meet, a bit for each: in one vector, whatever the instructions.
+    /// Which of the first [`FEW`] spheres the half-line may hit, a bit for each: in one vector, whatever the instructions.
     #[inline(always)]
     pub(crate) fn few_near_half_line(&self, segment: &Segment) -> u32 {
         let Segment { origin, direction, one_over_a, .. } = *segment;
