@@ -187,7 +187,7 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
 
 /// Returns which of `objects` the ray meets first with `t` in `range`, and where: of equal `t`, the lowest index.
 ///
-/// Every object is tried in turn. Of spheres in `f32`, `Spheres` and `SphereBvh` (with the feature `alloc`) give the same answer,
+/// Every object that [may be hit](Hittable::may_hit) is tried in turn. Of spheres in `f32`, `Spheres` and `SphereBvh` (with the feature `alloc`) give the same answer,
 /// few several times as fast and many a thousand times.
 ///
 /// ```
