@@ -179,7 +179,7 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
 
     #[inline]
     fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
-        let mut near = Near::new(self);
+        let mut near = Candidates::new(self);
         iter::from_fn(|| near.next(ray, range.clone()))
             .any(|(_, object)| object.occludes(ray, range.clone()))
     }
@@ -187,7 +187,7 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
 
 /// Returns which of `objects` the ray meets first with `t` in `range`, and where: of equal `t`, the lowest index.
 ///
-/// Every object is tried in turn. Of spheres in `f32`, `Spheres` and `SphereBvh` (with the feature `alloc`) give the same answer,
+/// Every object that [may be hit](Hittable::may_hit) is tried in turn. Of spheres in `f32`, `Spheres` and `SphereBvh` (with the feature `alloc`) give the same answer,
 /// few several times as fast and many a thousand times.
 ///
 /// ```
@@ -209,7 +209,7 @@ pub fn nearest<V: Vector, H: Hittable<V>>(
     range: Range<V::Scalar>,
 ) -> Option<(usize, Hit<V>)> {
     let Range { start, mut end } = range;
-    let mut near = Near::new(objects);
+    let mut near = Candidates::new(objects);
     let mut found = None;
     while let Some((index, object)) = near.next(ray, start..end) {
         // The ray from where the compiler does not know it: what only a hit needs of it is not computed ahead of the loop.
@@ -245,7 +245,7 @@ pub(crate) fn nearest_among<'a, V: Vector, H: Hittable<V> + 'a>(
 }
 
 /// The objects that a ray may hit, and perhaps others, by ascending index.
-struct Near<'a, H> {
+struct Candidates<'a, H> {
     objects: &'a [H],
     /// The first that has not been asked.
     next: usize,
@@ -253,7 +253,7 @@ struct Near<'a, H> {
     near: u32,
 }
 
-impl<'a, H> Near<'a, H> {
+impl<'a, H> Candidates<'a, H> {
     #[inline(always)]
     fn new(objects: &'a [H]) -> Self {
         Self { objects, next: 0, near: 0 }

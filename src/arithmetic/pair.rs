@@ -1,5 +1,8 @@
 //! Pairs: a number as the unevaluated sum of two `f64`, twice the precision.
 //!
+//! On a machine without an operating system, each of the larger operations is compiled once: there `f64` is computed in software
+//! more often than not, a call costs little beside it, and copies cost a sixth of all the code (`tests/targets/run`).
+//!
 //! Dekker, *A Floating-Point Technique for Extending the Available Precision* (1971); for the error bounds, Joldes, Muller
 //! and Popescu, *Tight and Rigorous Error Bounds for Basic Building Blocks of Double-Word Arithmetic* (2017).
 //! Throughout, u = 2⁻⁵³ is the rounding error of an `f64` operation.
@@ -51,7 +54,8 @@ pub(crate) struct Pair {
 }
 
 /// `a + b`, exactly (Knuth's two-sum).
-#[inline(always)]
+#[cfg_attr(not(target_os = "none"), inline(always))]
+#[cfg_attr(target_os = "none", inline(never))]
 pub(crate) fn two_sum(a: f64, b: f64) -> Pair {
     let hi = a + b;
     let b_part = hi - a;
@@ -76,7 +80,8 @@ pub(crate) fn fast_two_sum(a: f64, b: f64) -> Pair {
 ///
 /// Where the machine has a fused multiply-add, it gives the error at once; the bits are the same either way, unless it
 /// underflows.
-#[inline(always)]
+#[cfg_attr(not(target_os = "none"), inline(always))]
+#[cfg_attr(target_os = "none", inline(never))]
 pub(crate) fn two_product(a: f64, b: f64) -> Pair {
     let hi = a * b;
     #[cfg(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")))]
@@ -105,7 +110,8 @@ fn split(a: f64) -> (f64, f64) {
 /// [`COMPENSATED_DOT_ERROR`].
 ///
 /// Ogita, Rump and Oishi, *Accurate Sum and Dot Product* (2005).
-#[inline(always)]
+#[cfg_attr(not(target_os = "none"), inline(always))]
+#[cfg_attr(target_os = "none", inline(never))]
 pub(crate) fn compensated_dot(a: Triple<f64>, b: Triple<f64>) -> Pair {
     let Triple { x, y, z } = a.zip(b, two_product);
     let xy = two_sum(x.hi, y.hi);
@@ -157,7 +163,8 @@ impl Add for Pair {
     type Output = Self;
 
     /// Error at most [`SUM_ERROR`].
-    #[inline(always)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
+    #[cfg_attr(target_os = "none", inline(never))]
     fn add(self, other: Self) -> Self {
         let sum = two_sum(self.hi, other.hi);
         fast_two_sum(sum.hi, sum.lo + (self.lo + other.lo))
@@ -178,7 +185,8 @@ impl Mul for Pair {
     type Output = Self;
 
     /// Relative error at most [`PRODUCT_ERROR`].
-    #[inline(always)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
+    #[cfg_attr(target_os = "none", inline(never))]
     fn mul(self, other: Self) -> Self {
         let product = two_product(self.hi, other.hi);
         fast_two_sum(product.hi, product.lo + (self.hi * other.lo + self.lo * other.hi))
@@ -189,7 +197,8 @@ impl Div for Pair {
     type Output = Self;
 
     /// Relative error at most [`QUOTIENT_ERROR`].
-    #[inline(always)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
+    #[cfg_attr(target_os = "none", inline(never))]
     fn div(self, other: Self) -> Self {
         let quotient = self.hi / other.hi;
         let product = two_product(quotient, other.hi);

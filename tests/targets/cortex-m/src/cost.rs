@@ -42,8 +42,11 @@ fn main() -> ! {
         let ours = instructions(&mut timer, cases, ours) - nothing;
         let tenths = ours * 10 / formula;
         let (whole, tenth) = (tenths / 10, tenths % 10);
-        writeln!(out, "  {what}: {ours} instructions, {whole}.{tenth} times the formula's {formula}")
-            .expect("semihosting takes all");
+        writeln!(
+            out,
+            "  {what}: {ours} instructions, {whole}.{tenth} times the formula's {formula}"
+        )
+        .expect("semihosting takes all");
     };
     count("a miss of a slice", &misses, [by_formula, by_nearest]);
     count("an easy hit", &easy, [by_formula, by_intersect]);
