@@ -179,8 +179,8 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
 
     #[inline]
     fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
-        let mut near = Candidates::new(self);
-        iter::from_fn(|| near.next(ray, range.clone()))
+        let mut candidates = Candidates::new(self);
+        iter::from_fn(|| candidates.next(ray, range.clone()))
             .any(|(_, object)| object.occludes(ray, range.clone()))
     }
 }
@@ -209,9 +209,9 @@ pub fn nearest<V: Vector, H: Hittable<V>>(
     range: Range<V::Scalar>,
 ) -> Option<(usize, Hit<V>)> {
     let Range { start, mut end } = range;
-    let mut near = Candidates::new(objects);
+    let mut candidates = Candidates::new(objects);
     let mut found = None;
-    while let Some((index, object)) = near.next(ray, start..end) {
+    while let Some((index, object)) = candidates.next(ray, start..end) {
         // The ray from where the compiler does not know it: what only a hit needs of it is not computed ahead of the loop.
         if let Some(hit) = object.intersect(black_box(ray), start..end) {
             // The range is half open: what comes later must be strictly nearer.
@@ -250,13 +250,13 @@ struct Candidates<'a, H> {
     /// The first that has not been asked.
     next: usize,
     /// Of the four before it, those that may be hit and were not given yet: a bit for each.
-    near: u32,
+    passed: u32,
 }
 
 impl<'a, H> Candidates<'a, H> {
     #[inline(always)]
     fn new(objects: &'a [H]) -> Self {
-        Self { objects, next: 0, near: 0 }
+        Self { objects, next: 0, passed: 0 }
     }
 
     /// The next one that the ray may hit with t in the range.
@@ -265,7 +265,7 @@ impl<'a, H> Candidates<'a, H> {
     where
         H: Hittable<V>,
     {
-        while self.near == 0 {
+        while self.passed == 0 {
             let rest = self.objects.get(self.next..)?;
             let four = if HAS_VECTORS { rest.first_chunk() } else { None };
             let Some(four) = four else {
@@ -274,11 +274,11 @@ impl<'a, H> Candidates<'a, H> {
                 self.next = index + 1;
                 return Some((index, self.objects.get(index)?));
             };
-            self.near = H::may_hit_four(four, ray, range.clone());
+            self.passed = H::may_hit_four(four, ray, range.clone());
             self.next += 4;
         }
-        let index = self.next - 4 + self.near.trailing_zeros() as usize;
-        self.near &= self.near - 1;
+        let index = self.next - 4 + self.passed.trailing_zeros() as usize;
+        self.passed &= self.passed - 1;
         Some((index, self.objects.get(index)?))
     }
 }

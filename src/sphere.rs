@@ -43,9 +43,9 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 /// 4. The direction need not be unit, and t counts in its lengths: of 2ᵏ times the direction, t is 2⁻ᵏ times as large,
 ///    exactly.
 /// 5. A ray is a half line: a hit is at the smallest root that, as returned, is finite, above 0 and in the range.
-/// 6. Each coordinate of [`Hit::point`] is off by at most 0.51 ulp of itself (1 ulp where it is subnormal) and the smaller of 2⁻³⁰
-///    of the distance travelled, t times the direction's length, and 2⁻²⁴ of the radius (with `DVec3` 2⁻⁶⁰ and
-///    2⁻⁵³). [`Hit::normal`] is within 2 ulp of 1 of the outward unit normal there. At radius 0, where there is none, it points
+/// 6. Each coordinate of [`Hit::point`] is off by at most 0.51 ulp of itself (1 ulp where it is subnormal or, in `f64`, below 2⁻⁸⁴⁸)
+///    and the smaller of 2⁻³⁰ of the distance travelled, t times the direction's length, and 2⁻²⁴ of the radius (with `DVec3` 2⁻⁶⁰
+///    and 2⁻⁵³). [`Hit::normal`] is within 2 ulp of 1 of the outward unit normal there. At radius 0, where there is none, it points
 ///    back along the ray.
 /// 7. A ray of [`Hit::spawn`] never hits the surface that it leaves, if the radius is at least 1,000 ulp of the coordinates of the
 ///    point. It starts no farther from it than stated at [`spawn`](Hit::spawn).

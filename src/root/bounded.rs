@@ -160,6 +160,10 @@ impl Crossings for Bounded {
         let (t, relative_error) = self.estimate(side)?;
         let estimate = if self.format == Format::F32 {
             Estimate { t: t.into(), relative_error, exponent: 0 }
+        } else if self.chord.distance_squared
+            > halves::FARTHEST * (self.line.radius * self.line.radius)
+        {
+            return None;
         } else {
             let (corrected, relative_error) = self.corrected(t, relative_error);
             Estimate { t: corrected.t, relative_error, exponent: 0 }

@@ -10,7 +10,8 @@
 //! Nearly all of f cancels, so it has to be computed in more than 53 bits. [`Halves`] splits a vector into a high part, every
 //! coordinate a multiple of the same power of two and of at most 26 bits, and a low part of the rest. A dot product of high
 //! parts is then exact in plain `f64`, whichever way it is summed up: each product is an integer multiple of one power of two,
-//! and by the inequality of Cauchy and Schwarz no partial sum exceeds 2⁵³ of these. Only products with low parts are rounded,
+//! and by the inequality of Cauchy and Schwarz no partial sum exceeds 2⁵³ of these. Those of o are multiples of 2⁻²⁶ √m or more, as
+//! coarse as those of w at the least, so that their sum with w.high is exact too, up to |o| = [`FARTHEST`] r. Only products with low parts are rounded,
 //! and these are 2⁻²⁶ of the whole. (Rump, Ogita and Oishi, *Accurate Floating-Point Summation*, 2008, extract vectors so.)
 //!
 //! **The error**, with m the larger of o·o and r², and each t |d| ≤ 2 √m, to first order. What is rounded in a coordinate of w are
@@ -45,6 +46,10 @@ pub(super) const SLOPE_ERROR: f64 = 4.0 * U;
 
 /// Of w, in √m: 2⁻⁷⁴.
 pub(super) const OFFSET_ERROR: f64 = U / 2_097_152.0;
+
+/// The largest square of |o| over r. Where the low parts of t d and of o, 2⁻²³ |o| together, are no longer small beside r, neither is
+/// the high part of w a number of 26 bits.
+pub(super) const FARTHEST: f64 = 1_099_511_627_776.0; // 2^40
 
 /// How far off a corrected root may be, as a part of itself: 2⁻⁶², and half of that for all else.
 const ROOT_ERROR: f64 = U / 512.0 * 1.5;
@@ -150,9 +155,11 @@ impl Correction {
     #[inline(always)]
     pub(super) fn new(line: Line, o: DVec3, chord: &Chord<f64>, radius_squared: f64) -> Self {
         let Chord { a, distance_squared, .. } = *chord;
+        let larger =
+            if distance_squared > radius_squared { distance_squared } else { radius_squared };
         let exact_o = line.o();
         let o_low = DVec3::new(exact_o.x.lo, exact_o.y.lo, exact_o.z.lo);
-        let Halves { high, low } = Halves::new(o, splitter(distance_squared));
+        let Halves { high, low } = Halves::new(o, splitter(larger));
         let radius_splitter = splitter(radius_squared);
         let radius_high = (line.radius + radius_splitter) - radius_splitter;
         Self {

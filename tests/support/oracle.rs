@@ -128,7 +128,7 @@ impl<V: Coordinates> Truth<V> {
     }
 
     /// The largest error of a coordinate of a point that was computed for a root, as a part of what is promised: half an ulp of
-    /// that coordinate and a hundredth, or an ulp where it is subnormal, and the smaller of a part of the distance travelled and a
+    /// that coordinate and a hundredth, or an ulp where it is below 2^-900 or, in single precision, subnormal, and the smaller of a part of the distance travelled and a
     /// part of the radius.
     pub fn point_error(&self, root: usize, point: V) -> f64 {
         let [of_distance, of_radius] = if V::Scalar::DIGITS == 24 { [30, 24] } else { [60, 53] };
@@ -138,8 +138,8 @@ impl<V: Coordinates> Truth<V> {
         let parts = [0, 1, 2].map(|i| {
             let exact = &self.center[i] + &from_center[i];
             let ulp = V::Scalar::ulp(&exact);
-            let is_subnormal = ulp == V::Scalar::LEAST_EXPONENT;
-            let hundredths = if is_subnormal { 100 } else { 51 };
+            let is_small = ulp < -900 || ulp == V::Scalar::LEAST_EXPONENT;
+            let hundredths = if is_small { 100 } else { 51 };
             let rounding = Dyadic::new(hundredths, ulp);
             let promised = &rounding + &(&allowed * &Dyadic::new(100, 0));
             // In hundredths of an ulp.
