@@ -85,7 +85,7 @@ pub(super) enum Nearest {
 ///
 /// `fine_power` gives the power with an error of at most 2⁻⁷⁶ m and its own last place, or `None`. It is asked where only the
 /// power is too small beside m, as close to the surface: with s (|h| + s) > clear a m, the discriminant and h err by no more than
-/// in the other cases, and where such a power is more than 2⁻⁴⁰ m, it errs by 2⁻³⁶ of itself.
+/// in the other cases, and where such a power is more than 2⁻⁴⁰ m, it errs by 2⁻³⁶ of itself: little where `clear` is at most 2⁻¹⁵.
 ///
 /// A NaN or an infinity anywhere ends in doubt: none of the comparisons holds then. So does a zero direction. A negative
 /// radius, given as a negative square, is a miss or ends in doubt.
