@@ -55,7 +55,7 @@ impl Format {
         compare: impl FnOnce(Midpoint) -> Ordering,
     ) -> Option<f64> {
         // Nor where it is NaN.
-        if relative_error.is_nan() || relative_error > 0.25 {
+        if relative_error.is_nan() || relative_error >= 0.25 {
             return None;
         }
         let error = t.hi.abs() * relative_error;
