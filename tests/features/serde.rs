@@ -45,7 +45,7 @@ fn the_shape_of_the_plain_data() {
         ),
         (
             to_value(Hit::new(2.0, Vec3::X, Vec3::Y, 0.25)),
-            json!({ "t": 2.0, "point": [1.0, 0.0, 0.0], "normal": [0.0, 1.0, 0.0], "clearance": 0.25 }),
+            json!({ "t": 2.0, "point": [1.0, 0.0, 0.0], "normal": [0.0, 1.0, 0.0], "error": 0.25 }),
         ),
     ] {
         assert_eq!(written.expect("finite"), expected);
