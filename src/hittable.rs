@@ -224,6 +224,7 @@ pub fn nearest<V: Vector, H: Hittable<V>>(
 }
 
 /// The nearest of the objects that `next` gives, by ascending index, each time told where the range ends by now.
+#[cfg(feature = "alloc")]
 #[inline(always)]
 pub(crate) fn nearest_among<'a, V: Vector, H: Hittable<V> + 'a>(
     ray: &Ray<V>,
