@@ -11,8 +11,9 @@
 //! coordinate a multiple of the same power of two and of at most 26 bits, and a low part of the rest. A dot product of high
 //! parts is then exact in plain `f64`, whichever way it is summed up: each product is an integer multiple of one power of two,
 //! and by the inequality of Cauchy and Schwarz no partial sum exceeds 2⁵³ of these. Those of o are multiples of 2⁻²⁶ √m or more, as
-//! coarse as those of w at the least, so that their sum with w.high is exact too, up to |o| = [`FARTHEST`] r. Only products with low parts are rounded,
-//! and these are 2⁻²⁶ of the whole. (Rump, Ogita and Oishi, *Accurate Floating-Point Summation*, 2008, extract vectors so.)
+//! coarse as those of w at the least, so that their sum with w.high is exact too, up to |o|² = [`FARTHEST`] r². Only products with
+//! low parts are rounded, and these are 2⁻²⁶ of the whole. (Rump, Ogita and Oishi, *Accurate Floating-Point Summation*, 2008,
+//! extract vectors so.)
 //!
 //! **The error**, with m the larger of o·o and r², and each t |d| ≤ 2 √m, to first order. What is rounded in a coordinate of w are
 //! t.high d.low, t.low d, their sum, its difference from o.low, and what is added to that: with low parts of 2⁻²⁵ of t, 2⁻²⁶ of
@@ -20,8 +21,9 @@
 //! its product with 2 w are 2⁻⁷² r √m more. So f errs by at most 2⁻⁷¹ r √m, and τ by 2⁻⁷² r √m / s, where s = |w·d| is half the
 //! chord. A root is accepted where (s t)² > 2⁻²⁰ r² m, so that this is at most 2⁻⁶² t.
 //!
-//! By the bound of the first step with [`CLEAR`], |τ| < 2⁻³⁵ t, and s > [`CLEAR`] √(a m) / 2. So what the plain slope w·d errs by,
-//! 4 u r |d| / s < 2⁻³⁶ of itself, is 2⁻⁷¹ of t; and the term of fourth order, τ (a τ / s)², is below 2⁻⁷⁵ of t.
+//! By the bound of the first step with [`CLEAR`], |τ| < 2⁻³²·⁸ t, and s > 2⁻¹⁷ √(a m), so that a t / s < 2¹⁸. So what the plain slope
+//! w·d errs by, 4 u r |d| / s < 2⁻³⁴ of itself, is 2⁻⁶⁶ of t; and the term of third order that is left out, τ (a τ / s)² / 2, is below
+//! 2⁻⁶³·³ of t.
 
 use glam::DVec3;
 
@@ -47,7 +49,7 @@ pub(super) const SLOPE_ERROR: f64 = 4.0 * U;
 /// Of w, in √m: 2⁻⁷⁴.
 pub(super) const OFFSET_ERROR: f64 = U / 2_097_152.0;
 
-/// The largest square of |o| over r. Where the low parts of t d and of o, 2⁻²³ |o| together, are no longer small beside r, neither is
+/// The largest square of |o| / r. Where the low parts of t d and of o, 2⁻²³ |o| together, are no longer small beside r, neither is
 /// the high part of w a number of 26 bits.
 pub(super) const FARTHEST: f64 = 1_099_511_627_776.0; // 2^40
 

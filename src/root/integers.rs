@@ -85,20 +85,22 @@ impl Exact {
 
     /// How the root on that side compares with a number midway between two floats.
     fn compare_root(&self, line: &Line, side: Side, number: Midpoint) -> Ordering {
-        let narrow = match self {
-            Self::Narrow(narrow) => narrow.quadratic_at(number),
-            Self::Wide(_) => None,
+        let quadratic = match self {
+            Self::Narrow(narrow) => {
+                narrow.quadratic_at(number).unwrap_or_else(|| Sums::new(line).quadratic_at(number))
+            }
+            Self::Wide(sums) => sums.quadratic_at(number),
         };
-        let quadratic = narrow.unwrap_or_else(|| Sums::new(line).quadratic_at(number));
         if quadratic.is_lt() {
             // Within the chord.
             return if side == Side::Near { Ordering::Less } else { Ordering::Greater };
         }
-        let narrow = match self {
-            Self::Narrow(narrow) => narrow.ahead_of(number),
-            Self::Wide(_) => None,
+        let ahead = match self {
+            Self::Narrow(narrow) => {
+                narrow.ahead_of(number).unwrap_or_else(|| Sums::new(line).ahead_of(number))
+            }
+            Self::Wide(sums) => sums.ahead_of(number),
         };
-        let ahead = narrow.unwrap_or_else(|| Sums::new(line).ahead_of(number));
         match (side, quadratic) {
             // Outside the chord, the number lies before both roots or behind both.
             (_, Ordering::Greater) => ahead,
