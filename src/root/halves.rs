@@ -69,6 +69,29 @@ impl Halves {
         let high = (vector + splitter) - splitter;
         Self { high, low: vector - high }
     }
+
+    /// From the ray's origin to the center: `o` is that rounded, and what was rounded goes into the low part.
+    #[inline(always)]
+    fn to_center(line: Line, o: DVec3, splitter: f64) -> Self {
+        let Self { high, low } = Self::new(o, splitter);
+        let rounded = DVec3::from(line.o().map(|o| o.lo));
+        Self { high, low: low + rounded }
+    }
+}
+
+/// A number as the sum of two, exactly.
+#[derive(Clone, Copy)]
+struct Half {
+    high: f64,
+    low: f64,
+}
+
+impl Half {
+    #[inline(always)]
+    fn new(number: f64, splitter: f64) -> Self {
+        let high = (number + splitter) - splitter;
+        Self { high, low: number - high }
+    }
 }
 
 /// The number that, added to what has that square and subtracted again, leaves 26 bits of it: 3/2 2²⁶ times a power of two that
@@ -87,15 +110,11 @@ fn splitter(square: f64) -> f64 {
 /// 2⁻²⁵ m each.
 #[inline(always)]
 pub(super) fn power(line: Line, o: DVec3, larger: f64) -> f64 {
-    let exact_o = line.o();
-    let o_low = DVec3::new(exact_o.x.lo, exact_o.y.lo, exact_o.z.lo);
     let splitter = splitter(larger);
-    let Halves { high, low } = Halves::new(o, splitter);
-    let low = low + o_low;
-    let radius_high = (line.radius + splitter) - splitter;
-    let radius_low = line.radius - radius_high;
-    let leading = high.dot(high) - radius_high * radius_high;
-    leading + (low.dot(o + high) - radius_low * (line.radius + radius_high))
+    let Halves { high, low } = Halves::to_center(line, o, splitter);
+    let radius = Half::new(line.radius, splitter);
+    let leading = high.dot(high) - radius.high * radius.high;
+    leading + (low.dot(o + high) - radius.low * (line.radius + radius.high))
 }
 
 /// A corrected root, and where the ray is there.
@@ -145,13 +164,6 @@ pub(super) struct Correction {
     radius_splitter: f64,
 }
 
-/// A number as the sum of two.
-#[derive(Clone, Copy)]
-struct Half {
-    high: f64,
-    low: f64,
-}
-
 impl Correction {
     /// With o rounded.
     #[inline(always)]
@@ -159,17 +171,13 @@ impl Correction {
         let Chord { a, distance_squared, .. } = *chord;
         let larger =
             if distance_squared > radius_squared { distance_squared } else { radius_squared };
-        let exact_o = line.o();
-        let o_low = DVec3::new(exact_o.x.lo, exact_o.y.lo, exact_o.z.lo);
-        let Halves { high, low } = Halves::new(o, splitter(larger));
         let radius_splitter = splitter(radius_squared);
-        let radius_high = (line.radius + radius_splitter) - radius_splitter;
         Self {
-            o: Halves { high, low: low + o_low },
+            o: Halves::to_center(line, o, splitter(larger)),
             d: Halves::new(line.direction, splitter(a)),
             direction: line.direction,
             origin: line.origin,
-            radius: Half { high: radius_high, low: line.radius - radius_high },
+            radius: Half::new(line.radius, radius_splitter),
             a,
             radius_splitter,
         }
