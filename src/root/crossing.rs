@@ -4,6 +4,7 @@ use core::ops::Range;
 
 use glam::DVec3;
 
+use super::chord::{Chord, Derivation};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{Pair, two_difference};
 use crate::{Ray, Sphere, Vector};
@@ -42,6 +43,34 @@ impl Line {
             && self.radius.is_finite()
             && self.direction != DVec3::ZERO
             && self.radius >= 0.0
+    }
+}
+
+/// A line and a sphere as the plain steps see them.
+pub(crate) struct Setting {
+    pub(crate) line: Line,
+    /// From the ray's origin to the center, rounded.
+    pub(crate) o: DVec3,
+    /// Negative where the radius is.
+    pub(crate) radius_squared: f64,
+}
+
+impl Setting {
+    #[inline(always)]
+    pub(crate) fn new<V: Vector>(sphere: &Sphere<V>, ray: &Ray<V>) -> Self {
+        Self::of(Line::new(sphere, ray))
+    }
+
+    #[inline(always)]
+    pub(crate) fn of(line: Line) -> Self {
+        let o = line.center - line.origin;
+        Self { line, o, radius_squared: line.radius * line.radius.abs() }
+    }
+
+    /// The chord in plain `f64`.
+    #[inline(always)]
+    pub(crate) fn chord<D: Derivation>(&self) -> Chord<f64> {
+        D::chord(Triple::from(self.o), Triple::from(self.line.direction), self.radius_squared)
     }
 }
 

@@ -2,16 +2,15 @@
 
 use core::ops::Range;
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
-use super::chord::{Chord, Derivation};
-use super::crossing::{Found, Line};
+use super::chord::Derivation;
+use super::crossing::{Found, Line, Setting};
 use super::halves;
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
 use super::{both_carefully_f32, nearest_carefully_f32};
 use crate::algebraic::Quadratic;
-use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::U;
 use crate::arithmetic::rounding::rounds_safely;
 use crate::float::sqrt;
@@ -35,29 +34,7 @@ const MARGIN: u32 = (plain::ROOT_ERROR / CLEAR / U) as u32;
 /// With |o| ≤ 128 r, the error of t moves the point by no more than 18 u / [`CLEAR`] of 129 r, which is 2⁻²⁵ r.
 const NEAR: f64 = 16384.0;
 
-/// A line and a sphere in `f64`.
-struct Setting {
-    line: Line,
-    /// From the ray's origin to the center, rounded.
-    o: DVec3,
-    /// Negative where the radius is.
-    radius_squared: f64,
-}
-
 impl Setting {
-    #[inline(always)]
-    fn new(sphere: &Sphere, ray: &Ray) -> Self {
-        let line = Line::new(sphere, ray);
-        let o = line.center - line.origin;
-        let radius_squared = line.radius * line.radius.abs();
-        Self { line, o, radius_squared }
-    }
-
-    #[inline(always)]
-    fn chord<D: Derivation>(&self) -> Chord<f64> {
-        D::chord(Triple::from(self.o), Triple::from(self.line.direction), self.radius_squared)
-    }
-
     /// The hit at a root of the plain step, with the root rounded, from no farther than [`NEAR`].
     #[inline(always)]
     fn found(&self, t: f64, rounded: f32) -> Found {

@@ -5,14 +5,13 @@ use core::ops::Range;
 use glam::DVec3;
 
 use super::chord::{Chord, Derivation};
-use super::crossing::{Found, Line, Side};
+use super::crossing::{Found, Line, Setting, Side};
 use super::format::Format;
 use super::halves::{self, Correction};
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
 use super::{both_carefully_f64, integers, nearest_carefully_f64, surface};
 use crate::algebraic::Quadratic;
-use crate::arithmetic::number::Triple;
 use crate::float::sqrt;
 use crate::{Hit, Ray, Sphere};
 
@@ -29,29 +28,11 @@ pub(super) fn is_safe(square: f64) -> bool {
     square.to_bits().wrapping_sub(LEAST) < SPAN
 }
 
-/// A line and a sphere.
-struct Setting {
-    line: Line,
-    /// From the ray's origin to the center, rounded.
-    o: DVec3,
-    /// Negative where the radius is.
-    radius_squared: f64,
-}
-
 impl Setting {
+    /// The chord, unless its terms might overflow or underflow.
     #[inline(always)]
-    fn new(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> Self {
-        let line = Line::new(sphere, ray);
-        let o = line.center - line.origin;
-        let radius_squared = line.radius * line.radius.abs();
-        Self { line, o, radius_squared }
-    }
-
-    /// The chord in plain `f64`, unless its terms might overflow or underflow.
-    #[inline(always)]
-    fn chord<D: Derivation>(&self) -> Option<Chord<f64>> {
-        let (o, d) = (Triple::from(self.o), Triple::from(self.line.direction));
-        let chord = D::chord(o, d, self.radius_squared);
+    fn safe_chord<D: Derivation>(&self) -> Option<Chord<f64>> {
+        let chord = self.chord::<D>();
         (is_safe(chord.a) && is_safe(self.larger(&chord))).then_some(chord)
     }
 
@@ -78,9 +59,9 @@ fn nearest_again(line: &Line, range: Range<f64>) -> Option<Found> {
 #[inline(always)]
 #[expect(clippy::option_option, reason = "a certain miss is an answer, too")]
 fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
-    let radius_squared = line.radius * line.radius.abs();
-    let setting = Setting { line, o: line.center - line.origin, radius_squared };
-    let chord = setting.chord::<Quadratic>()?;
+    let setting = Setting::of(line);
+    let radius_squared = setting.radius_squared;
+    let chord = setting.safe_chord::<Quadratic>()?;
     let half_chord = sqrt(chord.discriminant);
     let larger = chord.distance_squared.max(radius_squared);
     if !surface::is_close(&chord, half_chord, larger) {
@@ -130,7 +111,7 @@ impl Precision for DVec3 {
     ) -> Option<Hit<Self>> {
         let setting = Setting::new(sphere, ray);
         let line = setting.line;
-        if let Some(chord) = setting.chord::<D>() {
+        if let Some(chord) = setting.safe_chord::<D>() {
             match plain::nearest_ahead(&chord, setting.radius_squared, halves::CLEAR, || None) {
                 Nearest::Miss => return None,
                 Nearest::Root { t, half_chord } => {
@@ -156,7 +137,7 @@ impl Precision for DVec3 {
     #[inline(always)]
     fn roots<D: Derivation>(sphere: &Sphere<Self>, ray: &Ray<Self>) -> Option<[f64; 2]> {
         let setting = Setting::new(sphere, ray);
-        if let Some(chord) = setting.chord::<D>() {
+        if let Some(chord) = setting.safe_chord::<D>() {
             match plain::both(&chord, setting.radius_squared, halves::CLEAR) {
                 Both::Miss => return None,
                 Both::Roots { t: [near, far], half_chord } => {

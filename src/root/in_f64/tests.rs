@@ -8,7 +8,7 @@ use crate::testing::{Dyadic, ExactChord, Lie, Random, nearest, search, setting};
 pub(in crate::root) fn effort(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> Effort {
     let range = 0.0..f64::INFINITY;
     let setting = Setting::new(sphere, ray);
-    if let Some(chord) = setting.chord::<Quadratic>() {
+    if let Some(chord) = setting.safe_chord::<Quadratic>() {
         match plain::nearest_ahead(&chord, setting.radius_squared, halves::CLEAR, || None) {
             Nearest::Miss => return Effort::Hot,
             Nearest::Root { t, half_chord } => {
