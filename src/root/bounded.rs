@@ -12,7 +12,7 @@
 //! M²            2 M |error| + |error|², 3 u for the sum    |error| ≤ u M (6 M + 6 P) + 9 u² P²
 //! r² a          products, 2 additions                      |error| ≤ 5 u r² a
 //! discriminant  and u for the difference                   |error| ≤ 7 u (r² a + M (M + P)) + 9 u² P²
-//! power         compensated: products and sums exact       |error| ≤ u |power| + 16 u² m
+//! power         compensated: products and sums exact       |error| ≤ u |power| + 36 u² m
 //! ```
 
 use super::chord::{Chord, Derivation};
@@ -21,10 +21,9 @@ use super::format::Format;
 use super::halves::{self, Corrected, Correction};
 use super::in_f64::is_safe;
 use super::integers;
+use super::surface::{POWER_ERROR, power_in_pairs};
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{
-    COMPENSATED_DOT_ERROR, Pair, U, compensated_dot, two_difference, two_product,
-};
+use crate::arithmetic::pair::{Pair, U};
 use crate::float::sqrt;
 use crate::geometric::ClosestApproach;
 use glam::DVec3;
@@ -40,8 +39,6 @@ const MOMENT_ERROR: f64 = 4.0 * U;
 const DISCRIMINANT_ERROR: f64 = 8.0 * U;
 /// Of the discriminant too, in P².
 const MOMENT_ERROR_SQUARED: f64 = 10.0 * U * U;
-/// Of the power, in m.
-const POWER_ERROR: f64 = 2.0 * COMPENSATED_DOT_ERROR;
 /// Of a quotient, besides what its terms bring with them: a, 3 u, and the rounding of the power, a sum and itself.
 const QUOTIENT_ERROR: f64 = 8.0 * U;
 
@@ -104,15 +101,8 @@ impl Bounded {
     /// o·o - r², where the origin may be close to the surface, with its relative error.
     #[inline(always)]
     fn power(&self) -> (f64, f64) {
-        let o = self.o.map(|o| o.hi);
-        let o_low = self.o.map(|o| o.lo);
-        let radius_squared = two_product(self.line.radius, self.line.radius);
-        let distance_squared = compensated_dot(o, o);
-        let difference = two_difference(distance_squared.hi, radius_squared.hi);
-        let low = (distance_squared.lo - radius_squared.lo) + 2.0 * o.dot(o_low);
-        let power = difference.hi + (difference.lo + low);
-        let error = POWER_ERROR * distance_squared.hi.max(radius_squared.hi);
-        (power, error / power.abs())
+        let (power, larger) = power_in_pairs(self.o, self.line.radius);
+        (power.hi, POWER_ERROR * larger / power.hi.abs())
     }
 
     /// The root on that side, unless it might be of either sign.

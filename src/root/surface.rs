@@ -24,29 +24,40 @@ const CLEAR: f64 = 1.0 / 65536.0;
 /// Of the root, as a part of itself, besides what the power brings with it: 2⁻⁷⁰.
 const ROOT_ERROR: f64 = U / 131_072.0;
 
-/// o·o - r², and how far off that may be.
+/// Of the power in pairs, in m.
 ///
-/// First in pairs: what is rounded in o·o is 8 v, in 2 o·o.lo 6 v, the square of o.lo 1 v, and three additions 5, 7 and 9 v,
-/// each of m. Where that is much of the power, what cancels is added up by two sums whose errors are kept: of the leading
-/// terms, and of the at most 10 u m in the low parts and errors of these. The rest, at most 93 v m, is added up plainly, and
-/// errs by 1,400 u³ m.
-#[inline(always)]
-pub(super) fn power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
-    const ERROR: f64 = 40.0 * V;
-    const CLOSE_ERROR: f64 = 1500.0 * U * V;
-    const CLOSE: f64 = 1.0 / 1_073_741_824.0; // 2^-30
+/// What is rounded in o·o is 8 v, in 2 o·o.lo 6 v, the square of o.lo 1 v, and three additions 5, 7 and 9 v: 36 v.
+pub(super) const POWER_ERROR: f64 = 40.0 * V;
 
+/// o·o - r² in pairs, and m.
+#[inline(always)]
+pub(super) fn power_in_pairs(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
     let (o, o_low) = (exact_o.map(|o| o.hi), exact_o.map(|o| o.lo));
     let radius_squared = two_product(radius, radius);
     let distance_squared = compensated_dot(o, o);
-    let larger = distance_squared.hi.max(radius_squared.hi);
     let difference = two_difference(distance_squared.hi, radius_squared.hi);
     let low = (distance_squared.lo - radius_squared.lo) + 2.0 * o.dot(o_low);
     let power = fast_two_sum(difference.hi, difference.lo + low);
+    (power, distance_squared.hi.max(radius_squared.hi))
+}
+
+/// o·o - r², and how far off that may be.
+///
+/// First in pairs. Where their error is much of the power, what cancels is added up by two sums whose errors are kept: of the
+/// leading terms, and of the at most 10 u m in the low parts and errors of these. The rest, at most 93 v m, is added up plainly, and
+/// errs by 1,400 u³ m.
+#[inline(always)]
+pub(super) fn power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
+    const CLOSE_ERROR: f64 = 1500.0 * U * V;
+    const CLOSE: f64 = 1.0 / 1_073_741_824.0; // 2^-30
+
+    let (power, larger) = power_in_pairs(exact_o, radius);
     if power.hi.abs() > CLOSE * larger {
-        return (power, ERROR * larger);
+        return (power, POWER_ERROR * larger);
     }
 
+    let (o, o_low) = (exact_o.map(|o| o.hi), exact_o.map(|o| o.lo));
+    let radius_squared = two_product(radius, radius);
     let Triple { x, y, z } = o.map(|o| two_product(o, o));
     let cross = o.zip(o_low, |o, low| two_product(2.0 * o, low));
     let xy = two_sum(x.hi, y.hi);
