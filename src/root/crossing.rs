@@ -112,32 +112,16 @@ pub(crate) struct Found {
     pub(crate) normal: DVec3,
 }
 
-/// A root as a step knows it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Root {
-    /// Correctly rounded.
-    pub(crate) t: f64,
-    /// Not rounded.
-    pub(crate) estimate: Estimate,
-}
-
-/// A root, with its relative error.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Estimate {
-    /// In the units of the step.
-    pub(crate) t: Pair,
-    pub(crate) relative_error: f64,
-    /// That of the power of two which takes `t` to lengths of the step's direction, in the caller's units.
-    pub(crate) exponent: i32,
-}
-
 /// The two crossings, as a step knows them.
 pub(crate) trait Crossings {
-    /// The root, if this step can tell it.
-    fn root(&self, side: Side) -> Option<Root>;
+    /// What the step knows of a root.
+    type Root;
+
+    /// The root, correctly rounded, if this step can tell it.
+    fn root(&self, side: Side) -> Option<(f64, Self::Root)>;
 
     /// The hit at that root, if this step can tell it within the tolerance of the format.
-    fn hit(&self, side: Side, root: Root) -> Option<Found>;
+    fn hit(&self, side: Side, t: f64, root: Self::Root) -> Option<Found>;
 }
 
 /// What is asked of the crossings.
@@ -174,11 +158,11 @@ impl Question {
     pub(crate) fn ask(&self, crossings: &impl Crossings) -> Verdict<Answer> {
         let mut roots = [0.0; 2];
         for (side, t) in [Side::Near, Side::Far].into_iter().zip(&mut roots) {
-            let Some(root) = crossings.root(side) else { return Verdict::Doubt };
-            *t = root.t;
+            let Some((rounded, root)) = crossings.root(side) else { return Verdict::Doubt };
+            *t = rounded;
             let Self::Nearest(range) = self else { continue };
-            if root.t > 0.0 && root.t < f64::INFINITY && range.contains(&root.t) {
-                let found = crossings.hit(side, root);
+            if rounded > 0.0 && rounded < f64::INFINITY && range.contains(&rounded) {
+                let found = crossings.hit(side, rounded, root);
                 return found.map_or(Verdict::Doubt, |found| Verdict::Hit(Answer::Nearest(found)));
             }
         }

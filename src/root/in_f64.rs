@@ -86,9 +86,9 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
         let found = Found { t, point: corrected.point(), normal: corrected.offset() / line.radius };
         return Some(range.contains(&t).then_some(found));
     }
-    let root = surface::small_root(o, line.direction.into(), &chord, half_chord, power);
+    let (root, relative_error) = surface::small_root(o, line.direction.into(), &chord, half_chord, power);
     let side = if is_outside { Side::Near } else { Side::Far };
-    let t = Format::F64.round(root.t, root.relative_error, |midpoint| {
+    let t = Format::F64.round(root, relative_error, |midpoint| {
         integers::compare_root(&{ line }, side, midpoint)
     })?;
     if t < range.start && is_outside {
@@ -96,7 +96,7 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
         return None;
     }
     let is_ahead = t > 0.0 && range.contains(&t);
-    Some(is_ahead.then(|| surface::hit(line, o, root.t, t)))
+    Some(is_ahead.then(|| surface::hit(line, o, root, t)))
 }
 
 impl Precision for DVec3 {

@@ -5,19 +5,20 @@
 //! any ([`Sums`]).
 
 mod narrow;
+mod points;
 mod sums;
 
 use core::cmp::Ordering;
 
 use glam::DVec3;
 use narrow::Narrow;
+use points::Crossing;
 use sums::Sums;
 
-use super::crossing::{Crossings, Estimate, Found, Line, Root, Side, Verdict};
+use super::crossing::{Crossings, Found, Line, Side, Verdict};
 use super::format::{Format, Midpoint};
-use super::pairs::Crossing;
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::V;
+use crate::arithmetic::pair::{Pair, V};
 use crate::arithmetic::scaling::{exponent, scale};
 use crate::arithmetic::wide::Wide;
 
@@ -120,6 +121,13 @@ pub(super) fn compare_root(line: &Line, side: Side, number: Midpoint) -> Orderin
     Exact::new(line).compare_root(line, side, number)
 }
 
+/// A root, to 96 bits.
+pub(super) struct Estimate {
+    t: Pair,
+    /// That of the power of two which takes `t` to lengths of the direction near 1, in the caller's units.
+    exponent: i32,
+}
+
 /// The chord, and what it belongs to.
 pub(super) struct InIntegers<'a> {
     line: &'a Line,
@@ -154,7 +162,9 @@ impl InIntegers<'_> {
 }
 
 impl Crossings for InIntegers<'_> {
-    fn root(&self, side: Side) -> Option<Root> {
+    type Root = Estimate;
+
+    fn root(&self, side: Side) -> Option<(f64, Estimate)> {
         /// Where a pair loses nothing.
         const MIDDLE: i32 = 900;
         let exact = self.estimate(side);
@@ -168,19 +178,18 @@ impl Crossings for InIntegers<'_> {
         };
         let estimate = Estimate {
             t: exact.scaled(-exact.exponent()),
-            relative_error: ROOT_ERROR,
             exponent: exact.exponent() + direction_exponent(self.line),
         };
-        Some(Root { t, estimate })
+        Some((t, estimate))
     }
 
-    fn hit(&self, side: Side, root: Root) -> Option<Found> {
+    fn hit(&self, side: Side, t: f64, root: Estimate) -> Option<Found> {
         let &Line { direction, center, radius, .. } = self.line;
         let direction_exponent = direction_exponent(self.line);
         let d = Triple::from(direction).map(|d| scale(d, -direction_exponent));
         if radius == 0.0 {
             // There is no normal: back along the ray.
-            return Some(Found { t: root.t, point: center, normal: -DVec3::from(d).normalize() });
+            return Some(Found { t, point: center, normal: -DVec3::from(d).normalize() });
         }
         // In units of the radius and of the direction's length, which bound half the chord and the moment.
         let length_exponent = exponent(radius);
@@ -193,9 +202,8 @@ impl Crossings for InIntegers<'_> {
             a: self.a.scaled(-2 * direction_exponent),
             moment: Triple { x, y, z },
             half_chord: self.half_chord.scaled(unit),
-            offset_error: 0.0,
         };
-        crossing.hit(self.line, self.format, side, root)
+        Some(crossing.hit(self.line, side, t, &root))
     }
 }
 

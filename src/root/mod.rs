@@ -49,6 +49,7 @@ mod integers;
 mod pairs;
 mod plain;
 pub(crate) mod precision;
+mod scaled;
 mod surface;
 
 use core::ops::Range;
@@ -74,59 +75,61 @@ fn nearest_carefully_f32(
     line: &Line,
     range: Range<f64>,
 ) -> Option<Found> {
-    carefully(Line::new(sphere, ray), line, Format::F32, &Question::Nearest(range))?.nearest()
+    bounded(Line::new(sphere, ray), line, &Question::Nearest(range))?.nearest()
 }
 
 /// Finds both roots, ascending, where the plain step in `f32` leaves a doubt. As above of the line.
 #[cold]
 #[inline(never)]
 fn both_carefully_f32(sphere: &Sphere, ray: &Ray, line: &Line) -> Option<[f64; 2]> {
-    carefully(Line::new(sphere, ray), line, Format::F32, &Question::Both)?.both()
+    bounded(Line::new(sphere, ray), line, &Question::Both)?.both()
 }
 
 /// Finds the nearest hit, where the plain step in `f64` and its correction leave a doubt.
 #[cold]
 #[inline(never)]
 fn nearest_carefully_f64(line: &Line, range: Range<f64>) -> Option<Found> {
-    carefully(*line, line, Format::F64, &Question::Nearest(range))?.nearest()
+    in_pairs(line, &Question::Nearest(range))?.nearest()
 }
 
 /// Finds both roots, ascending, where the plain step in `f64` and its correction leave a doubt.
 #[cold]
 #[inline(never)]
 fn both_carefully_f64(line: &Line) -> Option<[f64; 2]> {
-    carefully(*line, line, Format::F64, &Question::Both)?.both()
+    in_pairs(line, &Question::Both)?.both()
 }
 
-/// Takes the steps with a bound of the case in turn, until one is certain of the answer.
-///
-/// The first of them is compiled for each precision, the others once for both. Both lines are the same.
+/// Takes the steps of `f32` with a bound of the case, and integers where there is a doubt. Both lines are the same.
 #[inline(always)]
-fn carefully(converted: Line, line: &Line, format: Format, question: &Question) -> Option<Answer> {
-    match bounded::chord(converted, format).and_then(|chord| question.ask(&chord)) {
+fn bounded(converted: Line, line: &Line, question: &Question) -> Option<Answer> {
+    match bounded::chord(converted).and_then(|chord| question.ask(&chord)) {
         Verdict::Miss => None,
         Verdict::Hit(answer) => Some(answer),
-        Verdict::Doubt => in_pairs(line, format, question),
+        Verdict::Doubt => in_integers(line, Format::F32, question),
     }
 }
 
-/// Takes the steps that are compiled once for both precisions.
-#[cold]
-#[inline(never)]
-fn in_pairs(line: &Line, format: Format, question: &Question) -> Option<Answer> {
+/// Takes the step of `f64` in pairs, and integers where there is a doubt.
+#[inline(always)]
+fn in_pairs(line: &Line, question: &Question) -> Option<Answer> {
     if !line.is_valid() {
         return None;
     }
-    let exact = Exact::new(line);
-    // What is in doubt in f32 is so for pairs too, more often than not, and integers are no slower where they are narrow.
-    if format == Format::F64 || exact.is_wide() {
-        match pairs::chord(line, format).and_then(|chord| question.ask(&chord)) {
-            Verdict::Miss => return None,
-            Verdict::Hit(answer) => return Some(answer),
-            Verdict::Doubt => {}
-        }
+    match pairs::chord(line).and_then(|chord| question.ask(&chord)) {
+        Verdict::Miss => None,
+        Verdict::Hit(answer) => Some(answer),
+        Verdict::Doubt => in_integers(line, Format::F64, question),
     }
-    match integers::chord(line, exact, format).and_then(|chord| question.ask(&chord)) {
+}
+
+/// Takes the last step, which is compiled once for both precisions.
+#[cold]
+#[inline(never)]
+fn in_integers(line: &Line, format: Format, question: &Question) -> Option<Answer> {
+    if !line.is_valid() {
+        return None;
+    }
+    match integers::chord(line, Exact::new(line), format).and_then(|chord| question.ask(&chord)) {
         Verdict::Hit(answer) => Some(answer),
         Verdict::Miss | Verdict::Doubt => None,
     }

@@ -1,301 +1,231 @@
-//! The geometric derivation in pairs, with a bound on the error of the very case.
+//! `f64`: the origin moved along the line, exactly, to where nothing cancels, and the quadratic solved from there.
 //!
-//! With v = u² = 2⁻¹⁰⁶, P = |o| |d|, M = |o × d|, m the larger of o·o and r², o = c - p exactly a pair, r² too but for what
-//! underflows, and by the bounds in [`pair`](crate::arithmetic::pair), to first order:
+//! A ray is the same line from any of its points. With w = t d - o, from the center to where it is at t, the quadratic from there is
+//! `a τ² + 2 (w·d) τ + (w·w - r²)`, and its discriminant, (w·d)² - a (w·w - r²), is the same for every t. Of a t in `f64`, w is
+//! computed in pairs, and so is w·w - r², where nearly all cancels; all else is plain.
+//!
+//! **At the closest approach**, t = h / a but for rounding, the discriminant loses nothing, because w·d is next to zero there, w no
+//! longer than a radius, and what is known of w is what is known of the coordinates. Where the plain discriminant is certain enough,
+//! that is not needed. **At the root**, but for rounding, τ is a correction, to third order
 //!
 //! ```text
-//! a             a compensated dot product                                            |error| ≤  8 v a
-//! h             d·o.hi: 8 v P;  d·o.lo, at most u P: 3 v P;  their addition: 5 v P    |error| ≤ 16 v P
-//! o × d         o.hi products and their difference exact;  what is rounded in the difference of the products' low parts, 1 v,
-//!               in each product with o.lo, 1 v, in the difference of these, 1 v, and in two additions, 2 v and 3 v, each of
-//!               |o_j d_k| + |o_k d_j|: at most √2 P altogether                       |error| ≤ 12 v P
-//! M²            of each square: the product with the low part 2 v, the square of that 1 v, an addition 3 v; of their sum
-//!               12 v;  and 2 M |error of o × d| + |that|²            |error| ≤ 18 v M² + 24 v M P + 144 v² P²
-//! r² a          a: 8 v;  the product 16 v                                            |error| ≤ 24 v r² a
-//! discriminant  their difference: 12 v (r² a + M²)        |error| ≤ 36 v r² a + 30 v M² + 24 v M P + 144 v² P²
-//! power         see there
+//! τ = -q (1 + a q / 2 (w·d)),   q = (w·w - r²) / 2 (w·d)
 //! ```
+//!
+//! **The errors**, with v = u², P = |o| |d|, R the larger of |w| and r, m that of o·o and r², to first order and then rounded up:
+//!
+//! ```text
+//! w             t d exact;  its low part less that of o, 2 v;  and the error of the sum, 3 v, of |t d| + |o|    |error| ≤ 5 v (|t d| + |o|)
+//! w·w - r²      see there: 40 v R²;  and of w, 10 v |o| at the closest approach         |error| ≤ 40 v R² + 21 v R |o|
+//! w·d           at the closest approach, as h is: its size ≤ 8 u P;  as a dot product   |error| ≤  4 u R |d|
+//! discriminant  2 (8 u P) (4 u R |d|);  a (w·w - r²);  products, difference, 2 u each   |error| ≤ 40 v a R² + 85 v R |d| P + 2 u (D + 2 (w·d)²)
+//! a t           at the root by the plain chord:  h, 4 u P;  a and the quotient, 4 u of the sum;  half the chord
+//! ```
+//!
+//! At the root, |t d| ≤ 2 √m: w errs by 15 v √m, and w·w - r² by 70 v r √m, which is 35 v r √m / s in t, with half the chord s. The
+//! slope w·d errs by 4 u r |d|, and what is left out of τ is (a τ / s)² / 2 of it.
+
+use core::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::crossing::{Crossings, Estimate, Found, Line, Root, Side, Verdict};
-use super::format::Format;
+use super::bounded;
+use super::chord::Chord;
+use super::crossing::{Crossings, Found, Line, Side, Verdict};
+use super::format::{Format, Midpoint};
 use super::integers;
-use super::surface::power;
+use super::scaled::Scaled;
+use super::surface::{POWER_ERROR, power_in_pairs};
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{
-    COMPENSATED_DOT_ERROR, Pair, QUOTIENT_ERROR, ROOT_ERROR, SUM_ERROR, V, compensated_dot,
-    fast_two_sum, two_difference, two_product, two_sum,
-};
-use crate::arithmetic::scaling::{exponent, scale};
+use crate::arithmetic::pair::{Pair, U, V, two_difference, two_product, two_sum};
+use crate::arithmetic::scaling::scale;
 use crate::float::sqrt;
 
 #[cfg(test)]
 mod tests;
 
-/// Of h, in P.
-pub(super) const H_ERROR: f64 = 16.0 * V;
-/// Of o × d, in P.
-pub(super) const MOMENT_ERROR: f64 = 12.0 * V;
-/// Of the discriminant, in r² a + M (M + P); a tenth part for the rounding of this bound.
-pub(super) const DISCRIMINANT_ERROR: f64 = 40.0 * V;
-/// Of the discriminant too, in P²; likewise.
-pub(super) const MOMENT_ERROR_SQUARED: f64 = 160.0 * V * V;
-/// Of a root besides what h, the discriminant and the power bring with them, in itself: of a, and of the quotient, and two to spare.
-const ROOT_QUOTIENT_ERROR: f64 = COMPENSATED_DOT_ERROR + QUOTIENT_ERROR + 2.0 * V;
+/// A plain discriminant is certain enough where it is more than so many times what it may err by.
+const SURE: f64 = 1024.0;
+/// And more than this part of P², so that h is: 2⁻⁸⁰.
+const SURE_H: f64 = V * 67_108_864.0;
 
-/// Lengths and directions, each divided by a power of two that brings them near 1.
-pub(super) struct Scaled {
-    pub(super) o: Triple<Pair>,
-    pub(super) d: Triple<f64>,
-    pub(super) radius: f64,
-    length_exponent: i32,
-    direction_exponent: i32,
-}
+/// Of the discriminant from the closest approach, in a R |o|; and as above in a R² and P².
+const MOVED_ERROR: f64 = 96.0 * V;
+const MOVED_ALONG_ERROR: f64 = 1024.0 * U * V;
 
-impl Scaled {
-    /// `None` where the difference of the positions is no pair, or all lengths are zero.
-    #[inline(always)]
-    pub(super) fn new(line: &Line) -> Option<Self> {
-        /// Fourth powers of what lies within this of 1 neither overflow nor lose anything in a pair.
-        const NEAR: i32 = 200;
-        let o = line.o();
-        let is_pair = |pair: Pair| pair.hi.is_finite() && pair.lo.is_finite();
-        let longest = o.x.hi.abs().max(o.y.hi.abs()).max(o.z.hi.abs()).max(line.radius);
-        if !(is_pair(o.x) && is_pair(o.y) && is_pair(o.z)) || longest == 0.0 {
-            return None;
-        }
-        let Line { direction, radius, .. } = *line;
-        let d = Triple::from(direction);
-        let length_exponent = exponent(longest);
-        let direction_exponent = exponent(direction.abs().max_element());
-        if length_exponent.abs() < NEAR && direction_exponent.abs() < NEAR {
-            return Some(Self { o, d, radius, length_exponent: 0, direction_exponent: 0 });
-        }
-        // What this rounds, far below the largest of its kind, is below every error bound.
-        let shorten = |x: f64| scale(x, -length_exponent);
-        Some(Self {
-            o: o.map(|pair| Pair { hi: shorten(pair.hi), lo: shorten(pair.lo) }),
-            d: d.map(|x| scale(x, -direction_exponent)),
-            radius: shorten(radius),
-            length_exponent,
-            direction_exponent,
-        })
-    }
+/// Of w at the root, in √m.
+const OFFSET_ERROR: f64 = 16.0 * V;
+/// Of the root, in r √m / s.
+const RESIDUAL_ERROR: f64 = 40.0 * V;
+/// Of the slope, in r |d|, and of the operations of the correction, in itself.
+const SLOPE_ERROR: f64 = 5.0 * U;
+const CORRECTION_ERROR: f64 = 8.0 * U;
+/// The largest a τ / s.
+const MOST_BEND: f64 = 1.0 / 64.0;
 
-    /// A root in units of the caller's, if that is exact.
-    #[inline(always)]
-    pub(super) fn unscaled_root(&self, t: Pair) -> Option<Pair> {
-        /// 2⁻⁹⁰⁰: far enough above the subnormal numbers for the low part to be whole.
-        const LEAST: f64 = f64::from_bits((1023 - 900) << 52);
-        let e = self.length_exponent - self.direction_exponent;
-        if e == 0 {
-            return Some(t);
-        }
-        let unscaled = Pair { hi: scale(t.hi, e), lo: scale(t.lo, e) };
-        (unscaled.hi.is_finite() && unscaled.hi.abs() > LEAST).then_some(unscaled)
-    }
-
-    pub(super) fn o_high(&self) -> DVec3 {
-        self.o.map(|o| o.hi).into()
-    }
-
-    pub(super) fn o_low(&self) -> DVec3 {
-        self.o.map(|o| o.lo).into()
-    }
-}
-
-/// The chord in pairs, with its errors.
+/// The chord from a point of the line, and the line.
 pub(super) struct InPairs<'a> {
     line: &'a Line,
-    format: Format,
     scaled: Scaled,
-    pub(super) a: Pair,
-    pub(super) h: Pair,
-    /// o × d.
-    pub(super) moment: Triple<Pair>,
+    /// t of that point.
+    start: f64,
+    a: f64,
+    h: f64,
     /// √discriminant.
-    pub(super) half_chord: Pair,
-    pub(super) half_chord_error: f64,
-    /// P.
-    reach: f64,
+    half_chord: f64,
+    /// √m.
+    size: f64,
 }
 
-/// o × d.
+/// w = t d - o, off by at most 5 v (|t d| + |o|).
 #[inline(always)]
-pub(super) fn moment(o: Triple<Pair>, d: Triple<f64>) -> Triple<Pair> {
-    let coordinate = |oj: Pair, dk: f64, ok: Pair, dj: f64| {
-        let (x, y) = (two_product(oj.hi, dk), two_product(ok.hi, dj));
-        let difference = two_difference(x.hi, y.hi);
-        let low = (x.lo - y.lo) + (oj.lo * dk - ok.lo * dj);
-        fast_two_sum(difference.hi, difference.lo + low)
-    };
-    Triple {
-        x: coordinate(o.y, d.z, o.z, d.y),
-        y: coordinate(o.z, d.x, o.x, d.z),
-        z: coordinate(o.x, d.y, o.y, d.x),
-    }
-}
-
-/// The square of a vector's length.
-#[inline(always)]
-fn square(vector: Triple<Pair>) -> Pair {
-    let [x, y, z] = [vector.x, vector.y, vector.z].map(|coordinate| {
-        let square = two_product(coordinate.hi, coordinate.hi);
-        Pair { hi: square.hi, lo: square.lo + 2.0 * (coordinate.hi * coordinate.lo) }
-    });
-    let xy = two_sum(x.hi, y.hi);
-    let xyz = two_sum(xy.hi, z.hi);
-    Pair { hi: xyz.hi, lo: (x.lo + y.lo) + (z.lo + (xy.lo + xyz.lo)) }
+fn offset(Scaled { o, d, .. }: &Scaled, t: f64) -> Triple<Pair> {
+    o.zip(*d, |o, d| {
+        let step = two_product(t, d);
+        let high = two_difference(step.hi, o.hi);
+        two_sum(high.hi, (step.lo - o.lo) + high.lo)
+    })
 }
 
 /// Takes the chord of a valid line.
 #[inline(always)]
-pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
+pub(super) fn chord(line: &Line) -> Verdict<InPairs<'_>> {
     let Some(scaled) = Scaled::new(line) else { return Verdict::Doubt };
     let Scaled { o, d, radius, .. } = scaled;
-    let a = compensated_dot(d, d);
-    let radius_squared = two_product(radius, radius);
-    let moment = moment(o, d);
-    let moment_squared = square(moment);
-    let a_radius_squared = two_product(a.hi, radius_squared.hi);
-    let a_radius_squared_low =
-        a_radius_squared.lo + (a.hi * radius_squared.lo + a.lo * radius_squared.hi);
-    let difference = two_difference(a_radius_squared.hi, moment_squared.hi);
-    let discriminant =
-        fast_two_sum(difference.hi, difference.lo + (a_radius_squared_low - moment_squared.lo));
-
-    let o_high = Triple::from(scaled.o_high());
-    let reach_squared = a.hi * o_high.dot(o_high);
-    let error = DISCRIMINANT_ERROR
-        * (a_radius_squared.hi + moment_squared.hi + sqrt(moment_squared.hi) * sqrt(reach_squared))
-        + MOMENT_ERROR_SQUARED * reach_squared;
-    if discriminant.hi < -error {
+    let radius_squared = radius * radius;
+    let plain = bounded::Plain::new(o.map(|o| o.hi), d, radius_squared);
+    let Chord { a, h, distance_squared, discriminant, .. } = plain.chord;
+    if discriminant < -plain.error {
         return Verdict::Miss;
     }
-    if discriminant.hi <= error {
-        return Verdict::Doubt;
+    let size = sqrt(distance_squared.max(radius_squared));
+    if discriminant > SURE * plain.error && discriminant > SURE_H * plain.reach_squared {
+        let half_chord = sqrt(discriminant);
+        return Verdict::Hit(InPairs { line, scaled, start: 0.0, a, h, half_chord, size });
     }
-    let half_chord = discriminant.sqrt();
-    let h = compensated_dot(d, o_high);
-    let h_low = h.lo + d.dot(scaled.o_low().into());
-    Verdict::Hit(InPairs {
-        line,
-        format,
-        a,
-        h: fast_two_sum(h.hi, h_low),
-        moment,
-        half_chord,
-        // √D - √D' = (D - D') / (√D + √D'), at most the error of D over √D'.
-        half_chord_error: error / half_chord.hi + ROOT_ERROR * half_chord.hi,
-        reach: sqrt(reach_squared),
-        scaled,
-    })
+
+    let start = h / a;
+    let w = offset(&scaled, start);
+    let (power, larger) = power_in_pairs(w, radius);
+    let along = w.map(|w| w.hi).dot(d);
+    let discriminant = along * along - a * power.hi;
+    let error = a * (POWER_ERROR * larger + MOVED_ERROR * sqrt(larger * distance_squared))
+        + MOVED_ALONG_ERROR * plain.reach_squared;
+    if discriminant < -error {
+        return Verdict::Miss;
+    }
+    if discriminant > 4.0 * error {
+        let half_chord = sqrt(discriminant);
+        return Verdict::Hit(InPairs { line, scaled, start, a, h: -along, half_chord, size });
+    }
+    Verdict::Doubt
+}
+
+/// A root, and where the line is there.
+pub(super) struct Corrected {
+    /// In scaled units.
+    t: Pair,
+    error: f64,
+    /// Before the correction.
+    w: Triple<Pair>,
+    correction: f64,
 }
 
 impl InPairs<'_> {
-    /// The root on that side, unless it might be of either sign.
+    /// The root on that side, in scaled units.
     #[inline(always)]
-    pub(super) fn estimate(&self, side: Side) -> Option<Estimate> {
-        let Self { a, h, half_chord, .. } = *self;
-        let [sum, other] = match side {
-            Side::Near => [h - half_chord, h + half_chord],
-            Side::Far => [h + half_chord, h - half_chord],
-        };
-        let error =
-            H_ERROR * self.reach + self.half_chord_error + SUM_ERROR * (h.hi.abs() + half_chord.hi);
-        let exponent = self.scaled.length_exponent;
-        // The errors of quotients are doubled for their terms of second order.
-        if sum.hi.abs() > 0.5 * h.hi.abs() {
-            let relative_error = 2.0 * (error / sum.hi.abs()) + ROOT_QUOTIENT_ERROR;
-            return Some(Estimate { t: sum / a, relative_error, exponent });
+    fn corrected(&self, side: Side) -> Option<Corrected> {
+        let Self { start, a, h, half_chord, size, .. } = *self;
+        let Scaled { d, radius, .. } = self.scaled;
+        let along = if side == Side::Near { h - half_chord } else { h + half_chord };
+        let t = start + along / a;
+        let w = offset(&self.scaled, t);
+        let (power, _) = power_in_pairs(w, radius);
+        let inverse_slope = (2.0 * w.map(|w| w.hi).dot(d)).recip();
+        let q = power.hi * inverse_slope;
+        let correction = -(q + q * (a * q * inverse_slope));
+        let bend = a * correction / half_chord;
+        if bend.abs() > MOST_BEND {
+            return None;
         }
-        // That sum cancels; the product of the roots is power / a.
-        let (power, power_error) = power(self.scaled.o, self.scaled.radius);
-        let power_relative_error = power_error / power.hi.abs();
-        (power_relative_error < 0.5).then(|| Estimate {
-            t: power / other,
-            relative_error: 2.0 * (error / other.hi.abs() + power_relative_error)
-                + ROOT_QUOTIENT_ERROR,
-            exponent,
-        })
+        let of_correction =
+            SLOPE_ERROR * (radius * sqrt(a) / half_chord) + CORRECTION_ERROR + bend * bend;
+        let error =
+            RESIDUAL_ERROR * radius * size / half_chord + correction.abs() * of_correction;
+        Some(Corrected { t: two_sum(t, correction), error, w, correction })
+    }
+
+    /// How the root on that side compares with a number midway between its neighbors.
+    #[inline(always)]
+    fn compare(&self, side: Side, number: Midpoint) -> Ordering {
+        self.sign_at(number).map_or_else(
+            || integers::compare_root(self.line, side, number),
+            |is_outside| {
+                if is_outside == (side == Side::Near) { Ordering::Greater } else { Ordering::Less }
+            },
+        )
+    }
+
+    /// Whether the line is outside the sphere at a number, if that is certain.
+    #[inline(always)]
+    fn sign_at(&self, number: Midpoint) -> Option<bool> {
+        let Scaled { o, d, radius, .. } = self.scaled;
+        if self.scaled.is_scaled() {
+            return None;
+        }
+        // The number is odd: an even one, of 53 bits, and 1.
+        #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
+        let even = scale((number.integer - 1) as f64, number.exponent);
+        let one = scale(1.0, number.exponent);
+        let exact = o.zip(d, |o, d| {
+            let step = two_product(even, d);
+            let high = two_difference(step.hi, o.hi);
+            let low = two_difference(step.lo, o.lo);
+            let lower = two_sum(low.hi, one * d);
+            let lowest = two_sum(lower.hi, high.lo);
+            let sum = two_sum(high.hi, lowest.hi);
+            (sum, low.lo + lower.lo + lowest.lo)
+        });
+        let rest = exact.x.1.abs() + exact.y.1.abs() + exact.z.1.abs();
+        let w = Triple { x: exact.x.0, y: exact.y.0, z: exact.z.0 };
+        let (power, larger) = power_in_pairs(w, radius);
+        let error = POWER_ERROR * larger + 3.0 * sqrt(larger) * rest;
+        (power.hi.abs() > error).then_some(power.hi > 0.0)
     }
 }
 
 impl Crossings for InPairs<'_> {
+    type Root = Corrected;
+
     #[inline(always)]
-    fn root(&self, side: Side) -> Option<Root> {
-        let estimate = self.estimate(side)?;
-        let unscaled = self.scaled.unscaled_root(estimate.t)?;
-        let t = self.format.round(unscaled, estimate.relative_error, |midpoint| {
-            integers::compare_root(self.line, side, midpoint)
-        })?;
-        Some(Root { t, estimate })
+    fn root(&self, side: Side) -> Option<(f64, Corrected)> {
+        let corrected = self.corrected(side)?;
+        let relative_error = corrected.error / corrected.t.hi.abs();
+        let unscaled = self.scaled.unscaled_root(corrected.t)?;
+        let t = Format::F64.round(unscaled, relative_error, |midpoint| self.compare(side, midpoint))?;
+        Some((t, corrected))
     }
 
     #[inline(always)]
-    fn hit(&self, side: Side, root: Root) -> Option<Found> {
-        let offset_error = MOMENT_ERROR * self.reach + self.half_chord_error;
+    fn hit(&self, _: Side, t: f64, root: Corrected) -> Option<Found> {
+        let Corrected { t: unrounded, error, w, correction } = root;
         let Scaled { d, radius, length_exponent, .. } = self.scaled;
-        let Self { a, moment, half_chord, .. } = *self;
-        let crossing = Crossing { d, radius, length_exponent, a, moment, half_chord, offset_error };
-        crossing.hit(self.line, self.format, side, root)
-    }
-}
-
-/// What the points of the crossings follow from, in scaled units.
-pub(super) struct Crossing {
-    pub(super) d: Triple<f64>,
-    pub(super) radius: f64,
-    pub(super) length_exponent: i32,
-    pub(super) a: Pair,
-    /// o × d.
-    pub(super) moment: Triple<Pair>,
-    /// √discriminant.
-    pub(super) half_chord: Pair,
-    /// How far off the moment and half the chord may be together.
-    pub(super) offset_error: f64,
-}
-
-impl Crossing {
-    /// The hit at a root, if its point is within half the tolerance.
-    #[inline(always)]
-    pub(super) fn hit(&self, line: &Line, format: Format, side: Side, root: Root) -> Option<Found> {
-        let Root { t, estimate } = root;
-        let Self { d, radius, length_exponent, .. } = *self;
-        let length = sqrt(self.a.hi);
-        let travelled = scale(estimate.t.hi.abs() * length, estimate.exponent);
-        let is_close = travelled <= line.radius;
-        let tolerance = format.point_tolerance();
-        let allowed = if is_close {
-            tolerance.of_radius * radius
-        } else {
-            // In scaled units, as the radius.
-            (tolerance.of_radius * radius)
-                .min(tolerance.of_distance * scale(travelled, -length_exponent))
-        };
-        let is_certain = self.offset_error <= 0.5 * allowed * length
-            && (!is_close || estimate.relative_error < 0.5 * tolerance.of_distance);
-        if !is_certain {
+        let length = sqrt(self.a);
+        let tolerance = Format::F64.point_tolerance();
+        let allowed = (tolerance.of_radius * radius)
+            .min(tolerance.of_distance * (unrounded.hi.abs() * length));
+        if error * length + OFFSET_ERROR * self.size > 0.5 * allowed {
             return None;
         }
-
-        // From the foot of the closest approach, at (o × d) × d / a from the center, half a chord to either side.
-        let along = if side == Side::Near { -self.half_chord } else { self.half_chord };
-        let foot = moment(self.moment, d);
-        let offset = foot.zip(d, |foot, d| without_dust((foot + along.times(d)) / self.a));
-        let (start, exponent, step) = if is_close {
-            (line.origin, estimate.exponent, d.map(|d| without_dust(estimate.t.times(d))))
-        } else {
-            (line.center, length_exponent, offset)
-        };
-        let point = Triple::from(start).zip(step, |start, step| {
-            let sum = two_sum(start, scale(step.hi, exponent));
+        // p + t d is c + w.
+        let offset = w.zip(d, |w, d| without_dust(Pair { hi: w.hi, lo: w.lo + d * correction }));
+        let point = Triple::from(self.line.center).zip(offset, |center, offset| {
+            let sum = two_sum(center, scale(offset.hi, length_exponent));
             // Not where it overflows.
-            let low = sum.lo + scale(step.lo, exponent);
+            let low = sum.lo + scale(offset.lo, length_exponent);
             if sum.hi.is_finite() { sum.hi + low } else { sum.hi }
         });
-        let normal = offset.map(|offset| offset.hi / radius);
+        let normal = offset.map(|offset| (offset.hi + offset.lo) / radius);
         Some(Found { t, point: point.into(), normal: normal.into() })
     }
 }
@@ -303,7 +233,7 @@ impl Crossing {
 /// A coordinate of a vector of about unit length, zero where it is so small that the low part of a product underflowed on the way:
 /// what is left of such a part depends on whether the machine has a fused multiply-add.
 #[inline(always)]
-fn without_dust(coordinate: Pair) -> Pair {
+pub(super) fn without_dust(coordinate: Pair) -> Pair {
     const DUST: f64 = f64::from_bits((1023 - 800) << 52); // 2^-800
     // A zero of the same sign.
     if coordinate.hi.abs() < DUST { Pair::from(coordinate.hi * 0.0) } else { coordinate }

@@ -9,7 +9,7 @@
 use glam::DVec3;
 
 use super::chord::Chord;
-use super::crossing::{Estimate, Found, Line};
+use super::crossing::{Found, Line};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
     Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum,
@@ -93,7 +93,7 @@ pub(super) fn is_close(chord: &Chord<f64>, half_chord: f64, larger: f64) -> bool
     a * power.abs() < h * h * (1.0 / 17.0) && 2.0 * half_chord * half_chord > CLEAR * a_larger
 }
 
-/// The small root, from a power whose sign is certain.
+/// The small root, from a power whose sign is certain, and its relative error.
 #[inline(always)]
 pub(super) fn small_root(
     o: Triple<Pair>,
@@ -101,7 +101,7 @@ pub(super) fn small_root(
     chord: &Chord<f64>,
     half_chord: f64,
     (power, power_error): (Pair, f64),
-) -> Estimate {
+) -> (Pair, f64) {
     let sum = if chord.h < 0.0 { chord.h - half_chord } else { chord.h + half_chord };
     let t = power.hi / sum;
     let a = compensated_dot(d, d);
@@ -115,11 +115,7 @@ pub(super) fn small_root(
     let product = two_product(slope.hi, t);
     let residual = (power.hi - product.hi) + (power.lo - (product.lo + slope_low * t));
     let correction = residual / (slope.hi - at.hi);
-    Estimate {
-        t: fast_two_sum(t, correction),
-        relative_error: power_error / power.hi.abs() + ROOT_ERROR,
-        exponent: 0,
-    }
+    (fast_two_sum(t, correction), power_error / power.hi.abs() + ROOT_ERROR)
 }
 
 /// The hit at the small root.

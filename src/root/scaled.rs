@@ -1,0 +1,65 @@
+//! Lines of any size, brought near 1.
+
+use super::crossing::Line;
+use crate::arithmetic::number::Triple;
+use crate::arithmetic::pair::Pair;
+use crate::arithmetic::scaling::{exponent, scale};
+
+/// Lengths and directions, each divided by a power of two that brings them near 1.
+pub(super) struct Scaled {
+    pub(super) o: Triple<Pair>,
+    pub(super) d: Triple<f64>,
+    pub(super) radius: f64,
+    pub(super) length_exponent: i32,
+    direction_exponent: i32,
+}
+
+impl Scaled {
+    /// `None` where the difference of the positions is no pair, or all lengths are zero.
+    #[inline(always)]
+    pub(super) fn new(line: &Line) -> Option<Self> {
+        /// Fourth powers of what lies within this of 1 neither overflow nor lose anything in a pair.
+        const NEAR: i32 = 200;
+        let o = line.o();
+        let is_pair = |pair: Pair| pair.hi.is_finite() && pair.lo.is_finite();
+        let longest = o.x.hi.abs().max(o.y.hi.abs()).max(o.z.hi.abs()).max(line.radius);
+        if !(is_pair(o.x) && is_pair(o.y) && is_pair(o.z)) || longest == 0.0 {
+            return None;
+        }
+        let Line { direction, radius, .. } = *line;
+        let d = Triple::from(direction);
+        let length_exponent = exponent(longest);
+        let direction_exponent = exponent(direction.abs().max_element());
+        if length_exponent.abs() < NEAR && direction_exponent.abs() < NEAR {
+            return Some(Self { o, d, radius, length_exponent: 0, direction_exponent: 0 });
+        }
+        // What this rounds, far below the largest of its kind, is below every error bound.
+        let shorten = |x: f64| scale(x, -length_exponent);
+        Some(Self {
+            o: o.map(|pair| Pair { hi: shorten(pair.hi), lo: shorten(pair.lo) }),
+            d: d.map(|x| scale(x, -direction_exponent)),
+            radius: shorten(radius),
+            length_exponent,
+            direction_exponent,
+        })
+    }
+
+    /// A root in units of the caller's, if that is exact.
+    #[inline(always)]
+    pub(super) fn unscaled_root(&self, t: Pair) -> Option<Pair> {
+        /// 2⁻⁹⁰⁰: far enough above the subnormal numbers for the low part to be whole.
+        const LEAST: f64 = f64::from_bits((1023 - 900) << 52);
+        let e = self.length_exponent - self.direction_exponent;
+        if e == 0 {
+            return Some(t);
+        }
+        let unscaled = Pair { hi: scale(t.hi, e), lo: scale(t.lo, e) };
+        (unscaled.hi.is_finite() && unscaled.hi.abs() > LEAST).then_some(unscaled)
+    }
+
+    /// Whether the units are not the caller's.
+    #[inline(always)]
+    pub(super) fn is_scaled(&self) -> bool {
+        (self.length_exponent, self.direction_exponent) != (0, 0)
+    }
+}
