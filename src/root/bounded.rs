@@ -61,7 +61,7 @@ impl Plain {
         let reach_squared = chord.a * chord.distance_squared;
         let size = chord.a * radius_squared.abs()
             + moment_squared
-            + sqrt(moment_squared * reach_squared);
+            + sqrt(moment_squared) * sqrt(reach_squared);
         let error = DISCRIMINANT_ERROR * size + MOMENT_ERROR_SQUARED * reach_squared;
         Self { chord, moment, error, reach_squared }
     }

@@ -27,8 +27,6 @@
 
 use core::cmp::Ordering;
 
-use glam::DVec3;
-
 use super::bounded;
 use super::chord::Chord;
 use super::crossing::{Crossings, Found, Line, Side, Verdict};
@@ -37,7 +35,7 @@ use super::integers;
 use super::scaled::Scaled;
 use super::surface::{POWER_ERROR, power_in_pairs};
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{Pair, U, V, two_difference, two_product, two_sum};
+use crate::arithmetic::pair::{Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum};
 use crate::arithmetic::scaling::scale;
 use crate::float::sqrt;
 
@@ -46,20 +44,25 @@ mod tests;
 
 /// A plain discriminant is certain enough where it is more than so many times what it may err by.
 const SURE: f64 = 1024.0;
-/// And more than this part of P², so that h is: 2⁻⁸⁰.
-const SURE_H: f64 = V * 67_108_864.0;
+/// And more than this part of P², 2⁻⁶⁴: then s > 2⁻³² P, so that with 2⁻⁵⁰ P of a t in doubt, a τ < 2⁻¹⁸ s, and τ³ is negligible.
+const SURE_H: f64 = U / 2048.0;
 
-/// Of the discriminant from the closest approach, in a R |o|; and as above in a R² and P².
-const MOVED_ERROR: f64 = 96.0 * V;
+/// Of the discriminant from the closest approach, in a R², in a R |o| and in P².
+const MOVED_ERROR: f64 = 48.0 * V;
+const MOVED_REACH_ERROR: f64 = 256.0 * U * V;
 const MOVED_ALONG_ERROR: f64 = 1024.0 * U * V;
 
-/// Of w at the root, in √m.
-const OFFSET_ERROR: f64 = 16.0 * V;
-/// Of the root, in r √m / s.
-const RESIDUAL_ERROR: f64 = 40.0 * V;
+/// Of w at the root, in r, and in √m.
+const OFFSET_ERROR: f64 = 4.0 * V;
+const OFFSET_REACH_ERROR: f64 = 16.0 * U * V;
+/// Of the root, in r² / s, and in r √m / s.
+const RESIDUAL_ERROR: f64 = 24.0 * V;
+const RESIDUAL_REACH_ERROR: f64 = 16.0 * U * V;
 /// Of the slope, in r |d|, and of the operations of the correction, in itself.
 const SLOPE_ERROR: f64 = 5.0 * U;
 const CORRECTION_ERROR: f64 = 8.0 * U;
+/// Of the sum that the root is, in itself.
+const PAIR_ERROR: f64 = 2.0 * V;
 /// The largest a τ / s.
 const MOST_BEND: f64 = 1.0 / 64.0;
 
@@ -77,20 +80,23 @@ pub(super) struct InPairs<'a> {
     size: f64,
 }
 
-/// w = t d - o, off by at most 5 v (|t d| + |o|).
+/// w = t d - o.
 #[inline(always)]
 fn offset(Scaled { o, d, .. }: &Scaled, t: f64) -> Triple<Pair> {
     o.zip(*d, |o, d| {
         let step = two_product(t, d);
         let high = two_difference(step.hi, o.hi);
-        two_sum(high.hi, (step.lo - o.lo) + high.lo)
+        let low = two_difference(step.lo, o.lo);
+        let lower = two_sum(high.lo, low.hi);
+        let sum = two_sum(high.hi, lower.hi);
+        Pair { hi: sum.hi, lo: sum.lo + (lower.lo + low.lo) }
     })
 }
 
 /// Takes the chord of a valid line.
 #[inline(always)]
 pub(super) fn chord(line: &Line) -> Verdict<InPairs<'_>> {
-    let Some(scaled) = Scaled::new(line) else { return Verdict::Doubt };
+    let Some(mut scaled) = Scaled::new(line) else { return Verdict::Doubt };
     let Scaled { o, d, radius, .. } = scaled;
     let radius_squared = radius * radius;
     let plain = bounded::Plain::new(o.map(|o| o.hi), d, radius_squared);
@@ -107,15 +113,18 @@ pub(super) fn chord(line: &Line) -> Verdict<InPairs<'_>> {
     let start = h / a;
     let w = offset(&scaled, start);
     let (power, larger) = power_in_pairs(w, radius);
-    let along = w.map(|w| w.hi).dot(d);
+    let along = compensated_dot(d, w.map(|w| w.hi));
+    let along = along.hi + (along.lo + d.dot(w.map(|w| w.lo)));
     let discriminant = along * along - a * power.hi;
-    let error = a * (POWER_ERROR * larger + MOVED_ERROR * sqrt(larger * distance_squared))
+    let error = a * (MOVED_ERROR * larger + MOVED_REACH_ERROR * sqrt(larger * distance_squared))
         + MOVED_ALONG_ERROR * plain.reach_squared;
     if discriminant < -error {
         return Verdict::Miss;
     }
     if discriminant > 4.0 * error {
         let half_chord = sqrt(discriminant);
+        scaled.o = w.map(|w| -w);
+        let size = sqrt(larger);
         return Verdict::Hit(InPairs { line, scaled, start, a, h: -along, half_chord, size });
     }
     Verdict::Doubt
@@ -138,8 +147,8 @@ impl InPairs<'_> {
         let Self { start, a, h, half_chord, size, .. } = *self;
         let Scaled { d, radius, .. } = self.scaled;
         let along = if side == Side::Near { h - half_chord } else { h + half_chord };
-        let t = start + along / a;
-        let w = offset(&self.scaled, t);
+        let way = along / a;
+        let w = offset(&self.scaled, way);
         let (power, _) = power_in_pairs(w, radius);
         let inverse_slope = (2.0 * w.map(|w| w.hi).dot(d)).recip();
         let q = power.hi * inverse_slope;
@@ -150,9 +159,11 @@ impl InPairs<'_> {
         }
         let of_correction =
             SLOPE_ERROR * (radius * sqrt(a) / half_chord) + CORRECTION_ERROR + bend * bend;
-        let error =
-            RESIDUAL_ERROR * radius * size / half_chord + correction.abs() * of_correction;
-        Some(Corrected { t: two_sum(t, correction), error, w, correction })
+        let residual_error = (RESIDUAL_ERROR * radius + RESIDUAL_REACH_ERROR * size) * radius;
+        let error = residual_error / half_chord + correction.abs() * of_correction;
+        let t = two_sum(start, way);
+        let t = fast_two_sum(t.hi, t.lo + correction);
+        Some(Corrected { t, error, w, correction })
     }
 
     /// How the root on that side compares with a number midway between its neighbors.
@@ -169,7 +180,7 @@ impl InPairs<'_> {
     /// Whether the line is outside the sphere at a number, if that is certain.
     #[inline(always)]
     fn sign_at(&self, number: Midpoint) -> Option<bool> {
-        let Scaled { o, d, radius, .. } = self.scaled;
+        let Scaled { d, radius, .. } = self.scaled;
         if self.scaled.is_scaled() {
             return None;
         }
@@ -177,7 +188,7 @@ impl InPairs<'_> {
         #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
         let even = scale((number.integer - 1) as f64, number.exponent);
         let one = scale(1.0, number.exponent);
-        let exact = o.zip(d, |o, d| {
+        let exact = self.line.o().zip(d, |o, d| {
             let step = two_product(even, d);
             let high = two_difference(step.hi, o.hi);
             let low = two_difference(step.lo, o.lo);
@@ -200,7 +211,7 @@ impl Crossings for InPairs<'_> {
     #[inline(always)]
     fn root(&self, side: Side) -> Option<(f64, Corrected)> {
         let corrected = self.corrected(side)?;
-        let relative_error = corrected.error / corrected.t.hi.abs();
+        let relative_error = corrected.error / corrected.t.hi.abs() + PAIR_ERROR;
         let unscaled = self.scaled.unscaled_root(corrected.t)?;
         let t = Format::F64.round(unscaled, relative_error, |midpoint| self.compare(side, midpoint))?;
         Some((t, corrected))
@@ -214,7 +225,8 @@ impl Crossings for InPairs<'_> {
         let tolerance = Format::F64.point_tolerance();
         let allowed = (tolerance.of_radius * radius)
             .min(tolerance.of_distance * (unrounded.hi.abs() * length));
-        if error * length + OFFSET_ERROR * self.size > 0.5 * allowed {
+        let offset_error = OFFSET_ERROR * radius + OFFSET_REACH_ERROR * self.size;
+        if error * length + offset_error > 0.5 * allowed {
             return None;
         }
         // p + t d is c + w.

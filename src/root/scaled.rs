@@ -44,12 +44,18 @@ impl Scaled {
         })
     }
 
+    /// That of the power of two which takes a root to the caller's units.
+    #[inline(always)]
+    pub(super) fn exponent(&self) -> i32 {
+        self.length_exponent - self.direction_exponent
+    }
+
     /// A root in units of the caller's, if that is exact.
     #[inline(always)]
     pub(super) fn unscaled_root(&self, t: Pair) -> Option<Pair> {
         /// 2⁻⁹⁰⁰: far enough above the subnormal numbers for the low part to be whole.
         const LEAST: f64 = f64::from_bits((1023 - 900) << 52);
-        let e = self.length_exponent - self.direction_exponent;
+        let e = self.exponent();
         if e == 0 {
             return Some(t);
         }

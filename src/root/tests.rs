@@ -97,15 +97,21 @@ pub(super) fn parts_of_tolerance(
     [point, normal].map(|parts| parts.into_iter().fold(0.0, f64::max))
 }
 
+/// What the careful steps answer.
+fn carefully(line: Line, format: Format, question: &Question) -> Option<Answer> {
+    match format {
+        Format::F32 => bounded(line, &line, question),
+        Format::F64 => in_pairs(&line, question),
+    }
+}
+
 /// Both roots by the careful steps, `None` for a miss.
 fn both(numbers: [f64; 10], format: Format) -> Option<[f64; 2]> {
-    let line = line(numbers);
-    carefully(line, &line, format, &Question::Both)?.both()
+    carefully(line(numbers), format, &Question::Both)?.both()
 }
 
 fn nearest_ahead(numbers: [f64; 10], format: Format) -> Option<Found> {
-    let line = line(numbers);
-    carefully(line, &line, format, &Question::Nearest(0.0..f64::INFINITY))?.nearest()
+    carefully(line(numbers), format, &Question::Nearest(0.0..f64::INFINITY))?.nearest()
 }
 
 fn rounded(format: Format, exact: &Dyadic) -> f64 {
@@ -206,7 +212,7 @@ fn a_range_is_half_open_and_may_begin_behind_the_first_root() {
     let line = line(numbers);
     for format in [Format::F32, Format::F64] {
         let nearest = |range: Range<f64>| {
-            carefully(line, &line, format, &Question::Nearest(range))?
+            carefully(line, format, &Question::Nearest(range))?
                 .nearest()
                 .map(|found| found.t)
         };
@@ -218,8 +224,8 @@ fn a_range_is_half_open_and_may_begin_behind_the_first_root() {
         assert_eq!(nearest(3.5..7.0), None);
         assert_eq!(nearest(f64::NAN..f64::INFINITY), None);
         let question = Question::Nearest(0.0..9.0);
-        assert!(carefully(line, &line, format, &question).unwrap().both().is_none());
-        assert!(carefully(line, &line, format, &Question::Both).unwrap().nearest().is_none());
+        assert!(carefully(line, format, &question).unwrap().both().is_none());
+        assert!(carefully(line, format, &Question::Both).unwrap().nearest().is_none());
     }
 }
 

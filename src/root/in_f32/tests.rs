@@ -2,7 +2,6 @@ use super::*;
 use crate::geometric::ClosestApproach;
 use crate::root::crossing::{Question, Verdict};
 use crate::root::format::Format;
-use crate::root::integers::Exact;
 use crate::root::tests::{line, parts_of_tolerance, single};
 use crate::root::{bounded, in_f64, pairs};
 use crate::testing::{Dyadic, ExactChord, Lie, Random, nearest, search, setting};
@@ -28,17 +27,13 @@ pub(in crate::root) enum Effort {
 /// Which of the steps with a bound of the case decides.
 pub(in crate::root) fn careful_effort(line: &Line, format: Format, range: Range<f64>) -> Effort {
     let question = Question::Nearest(range);
-    let verdict = bounded::chord(*line, format).and_then(|chord| question.ask(&chord));
-    if !matches!(verdict, Verdict::Doubt) {
-        return Effort::Bounded;
-    }
-    if format == Format::F64 || Exact::new(line).is_wide() {
-        let verdict = pairs::chord(line, format).and_then(|chord| question.ask(&chord));
-        if !matches!(verdict, Verdict::Doubt) {
-            return Effort::Pairs;
+    let (verdict, effort) = match format {
+        Format::F32 => {
+            (bounded::chord(*line).and_then(|chord| question.ask(&chord)), Effort::Bounded)
         }
-    }
-    Effort::Integers
+        Format::F64 => (pairs::chord(line).and_then(|chord| question.ask(&chord)), Effort::Pairs),
+    };
+    if matches!(verdict, Verdict::Doubt) { Effort::Integers } else { effort }
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]

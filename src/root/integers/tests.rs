@@ -262,17 +262,17 @@ fn roots_in_integers_are_the_nearest() {
             let roots = exact.roots().expect("this hits");
             for (side, expected) in [Side::Near, Side::Far].into_iter().zip(&roots) {
                 let estimate = number(found.estimate(side));
-                let root = found.root(side).expect("never in doubt");
+                let (t, root) = found.root(side).expect("never in doubt");
                 if exact.discriminant.is_zero() || !expected.is_zero() {
                     let bound = &Dyadic::exactly(ROOT_ERROR) * &expected.clone().abs();
                     let part = part_of_bound(&estimate, expected, &bound);
                     assert!(part <= 1.0, "{part} {numbers:?}");
                 }
-                assert_eq!(root.t, nearest(expected, root.t), "{side:?} {numbers:?}");
+                assert_eq!(t, nearest(expected, t), "{side:?} {numbers:?}");
                 if numbers[9] == 0.0 {
                     continue;
                 }
-                let hit = found.hit(side, root).expect("never in doubt");
+                let hit = found.hit(side, t, root).expect("never in doubt");
                 assert!(hit.point.is_finite() && hit.normal.is_finite(), "{numbers:?}");
                 if exact.discriminant.is_zero() || expected.is_zero() {
                     continue;
@@ -295,10 +295,10 @@ fn roots_in_integers_are_the_nearest_f32_too() {
                 panic!("this hits: {numbers:?}");
             };
             for (side, expected) in [Side::Near, Side::Far].into_iter().zip(&roots) {
-                let root = found.root(side).expect("never in doubt").t;
+                let (root, _) = found.root(side).expect("never in doubt");
                 #[expect(clippy::cast_possible_truncation, reason = "a guess")]
                 let nearest = nearest(expected, expected.approximately() as f32);
-                assert_eq!(root, nearest.into(), "{side:?} {numbers:?}");
+                assert_eq!(root, f64::from(nearest), "{side:?} {numbers:?}");
             }
         }
     };

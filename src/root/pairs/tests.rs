@@ -1,24 +1,27 @@
 use super::*;
-use crate::arithmetic::pair::U;
-use crate::arithmetic::scaling::scale;
-use crate::root::tests::{ExactLine, difference, length, line, parts_of_tolerance, single};
+use crate::root::tests::{ExactLine, length, line, parts_of_tolerance};
 use crate::testing::{Dyadic, ExactChord, Lie, Random, exactly, part_of_bound, search, setting};
 
-const ANYWHERE: [Lie; 5] = [
+/// Where the plain discriminant is certain enough.
+const ANYWHERE: [Lie; 6] = [
     Lie { power: 0.999, discriminant: 0.0009 },
     Lie { power: 0.99, discriminant: 1e-6 },
     Lie { power: 0.1, discriminant: 1e-3 },
     Lie { power: -1e-20, discriminant: 0.5 },
     Lie { power: -0.9, discriminant: 0.95 },
+    Lie { power: 1.0 - 1e-12, discriminant: 1e-13 },
 ];
 
-/// As little clear of doubt as may be.
-const ALMOST_IN_DOUBT: [Lie; 5] = [
+/// Where it is not, down to what pairs can tell.
+const ALMOST_IN_DOUBT: [Lie; 8] = [
     Lie { power: 1e-14, discriminant: 1e-14 },
     Lie { power: -1e-14, discriminant: 1.1e-14 },
-    Lie { power: 0.9, discriminant: 1e-14 },
-    Lie { power: 1e-14, discriminant: 0.5 },
-    Lie { power: 1.0 - 1e-12, discriminant: 1e-13 },
+    Lie { power: 0.9, discriminant: 1e-15 },
+    Lie { power: 0.5, discriminant: 1e-20 },
+    Lie { power: 0.5, discriminant: 1e-29 },
+    Lie { power: 1.0 - 1e-15, discriminant: 1e-18 },
+    Lie { power: 1.0 - 1e-15, discriminant: 2e-16 },
+    Lie { power: 1.0 - 1e-15, discriminant: 1e-30 },
 ];
 
 fn search_settings(
@@ -41,10 +44,9 @@ fn of(bound: f64, size: &Dyadic) -> Dyadic {
 fn in_pairs<T>(
     exact: &ExactChord,
     numbers: [f64; 10],
-    format: Format,
     then: impl FnOnce(InPairs<'_>) -> Option<T>,
 ) -> Option<T> {
-    match chord(&line(numbers), format) {
+    match chord(&line(numbers)) {
         Verdict::Doubt => None,
         Verdict::Miss => {
             assert!(exact.discriminant.is_negative(), "the line hits: {numbers:?}");
@@ -58,90 +60,55 @@ fn in_pairs<T>(
 }
 
 #[test]
-fn the_constants_are_those_of_the_analysis() {
-    assert_eq!(
-        [H_ERROR, MOMENT_ERROR, DISCRIMINANT_ERROR, ROOT_QUOTIENT_ERROR],
-        [16.0, 12.0, 40.0, 20.0].map(|count| count * V)
-    );
-    assert_eq!(MOMENT_ERROR_SQUARED, 160.0 * V * V);
-}
-
-#[test]
-fn chords_in_pairs_keep_their_bounds() {
-    let dots = |exact: &ExactChord, numbers| {
-        in_pairs(exact, numbers, Format::F64, |InPairs { a, h, .. }| {
-            let reach = ExactLine::new(numbers).reach();
-            let a = part_of_bound(&exactly(a), &exact.a, &of(COMPENSATED_DOT_ERROR, &exact.a));
-            Some(part_of_bound(&exactly(h), &exact.h, &of(H_ERROR, &reach)).max(a))
-        })
-    };
-    assert!(search_settings("dot products in pairs", &ANYWHERE, dots) > 0.1);
-
-    let h = |exact: &ExactChord, numbers| {
-        in_pairs(exact, numbers, Format::F64, |InPairs { h, .. }| {
-            let reach = ExactLine::new(numbers).reach();
-            Some(part_of_bound(&exactly(h), &exact.h, &of(H_ERROR, &reach)))
-        })
-    };
-    assert!(search_settings("h in pairs", &ANYWHERE, h) > 0.05);
-
-    let moments = |_: &ExactChord, numbers| {
+fn offsets_are_as_fine_as_themselves() {
+    let part = |exact: &ExactChord, numbers: [f64; 10]| {
         let scaled = Scaled::new(&line(numbers)).expect("numbers near 1 fit");
-        let Triple { x, y, z } = moment(scaled.o, scaled.d);
-        let exact = ExactLine::new(numbers);
-        let error = length(&difference(&[x, y, z].map(exactly), &exact.moment()));
-        Some(error.divided_by(&of(MOMENT_ERROR, &exact.reach()), 64).approximately())
+        let exact_line = ExactLine::new(numbers);
+        // At the closest approach and at a root, but for rounding.
+        let root = exact.roots().map(|[near, _]| near.approximately());
+        let approach = exact.h.divided_by(&exact.a, 60).approximately();
+        let parts = [root, Some(approach)].into_iter().flatten().map(|t| {
+            let Triple { x, y, z } = offset(&scaled, t);
+            let expected = exact_line.offset(&Dyadic::exactly(t));
+            let error = length(&[0, 1, 2].map(|axis| &exactly([x, y, z][axis]) - &expected[axis]));
+            let reach = length(&exact_line.o);
+            let bound = &of(2.0 * V, &length(&expected)) + &of(4.0 * U * V, &(&reach + &reach));
+            error.divided_by(&bound, 64).approximately()
+        });
+        parts.reduce(f64::max)
     };
-    assert!(search_settings("moment in pairs", &ANYWHERE, moments) > 0.03);
-}
-
-/// The bound of the discriminant, without what is to spare for its rounding.
-fn discriminant_bound(exact: &ExactChord, numbers: [f64; 10]) -> Dyadic {
-    let line = ExactLine::new(numbers);
-    let (moment, reach) = (length(&line.moment()), line.reach());
-    let size = &(&exact.radius_squared() * &exact.a) + &(&moment * &(&moment + &reach));
-    &of(DISCRIMINANT_ERROR, &size) + &of(MOMENT_ERROR_SQUARED, &(&reach * &reach))
+    assert!(search_settings("offset in pairs", &ANYWHERE, part) > 0.1);
+    assert!(search_settings("offset in pairs, from afar", &ALMOST_IN_DOUBT, part) > 0.1);
 }
 
 #[test]
-fn discriminants_in_pairs_keep_their_bound() {
-    // The square root of the discriminant, within the bound of that and its own rounding.
+fn discriminants_from_the_closest_approach_keep_their_bound() {
     let part = |exact: &ExactChord, numbers| {
-        in_pairs(exact, numbers, Format::F64, |InPairs { half_chord, .. }| {
-            let square = &exactly(half_chord) * &exactly(half_chord);
-            let bound = &discriminant_bound(exact, numbers)
-                + &of(2.0 * ROOT_ERROR + V, &exact.discriminant);
+        in_pairs(exact, numbers, |InPairs { half_chord, start, .. }| {
+            if start == 0.0 {
+                return None;
+            }
+            let line = ExactLine::new(numbers);
+            let larger = Dyadic::exactly(numbers[9]);
+            let reach = line.reach();
+            let size = &of(MOVED_ERROR, &(&exact.radius_squared() * &exact.a))
+                + &of(MOVED_REACH_ERROR, &(&reach * &(&larger * &length(&line.d))));
+            let bound = &(&size + &of(MOVED_ALONG_ERROR, &(&reach * &reach)))
+                + &of(16.0 * U, &exact.discriminant);
+            let square = &Dyadic::exactly(half_chord) * &Dyadic::exactly(half_chord);
             Some(part_of_bound(&square, &exact.discriminant, &bound))
         })
     };
-    let lies = [
-        Lie { power: 0.9, discriminant: 1e-10 },
-        Lie { power: 0.5, discriminant: 1e-10 },
-        Lie { power: 0.99, discriminant: 1e-6 },
-        Lie { power: 0.9999, discriminant: 1e-8 },
-        Lie { power: -0.1, discriminant: 0.11 },
-    ];
-    assert!(search_settings("discriminant in pairs", &lies, part) > 0.03);
-}
-
-#[test]
-fn half_chords_in_pairs_keep_their_bound() {
-    let part = |exact: &ExactChord, numbers| {
-        in_pairs(exact, numbers, Format::F64, |InPairs { half_chord, half_chord_error, .. }| {
-            let expected = exact.discriminant.square_root(300);
-            Some(part_of_bound(&exactly(half_chord), &expected, &Dyadic::exactly(half_chord_error)))
-        })
-    };
-    assert!(search_settings("half the chord in pairs", &ALMOST_IN_DOUBT, part) > 0.03);
+    assert!(search_settings("discriminant of the moved origin", &ALMOST_IN_DOUBT, part) > 0.1);
 }
 
 /// The larger part that one of the roots takes of its bound.
 fn roots(exact: &ExactChord, numbers: [f64; 10]) -> Option<f64> {
-    in_pairs(exact, numbers, Format::F64, |chord| {
+    in_pairs(exact, numbers, |chord| {
         let expected = exact.roots().expect("this hits");
         let parts = [(Side::Near, 0), (Side::Far, 1)].map(|(side, index): (Side, usize)| {
-            let Estimate { t, relative_error, .. } = chord.estimate(side)?;
-            let bound = of(relative_error, &expected[index].clone().abs());
+            let Corrected { t, error, .. } = chord.corrected(side)?;
+            let bound = &Dyadic::exactly(error) + &of(PAIR_ERROR, &expected[index].clone().abs());
             Some(part_of_bound(&exactly(t), &expected[index], &bound))
         });
         parts.into_iter().flatten().reduce(f64::max)
@@ -150,18 +117,18 @@ fn roots(exact: &ExactChord, numbers: [f64; 10]) -> Option<f64> {
 
 #[test]
 fn roots_in_pairs_keep_their_bound() {
-    assert!(search_settings("roots in pairs", &ALMOST_IN_DOUBT, roots) > 0.05);
+    assert!(search_settings("roots in pairs", &ALMOST_IN_DOUBT, roots) > 0.03);
     assert!(search_settings("roots in pairs, anywhere", &ANYWHERE, roots) > 0.03);
 }
 
 /// The part of the tolerance that the error of a point or of a normal takes.
-fn points(exact: &ExactChord, numbers: [f64; 10], format: Format) -> Option<f64> {
-    in_pairs(exact, numbers, format, |chord| {
+fn points(exact: &ExactChord, numbers: [f64; 10]) -> Option<f64> {
+    in_pairs(exact, numbers, |chord| {
         let expected = exact.roots().expect("this hits");
         let parts = [(Side::Near, 0), (Side::Far, 1)].map(|(side, index): (Side, usize)| {
-            let estimate = chord.estimate(side)?;
-            let found = chord.hit(side, Root { t: estimate.t.hi, estimate })?;
-            let tolerance = format.point_tolerance();
+            let root = chord.corrected(side)?;
+            let found = chord.hit(side, root.t.hi, root)?;
+            let tolerance = Format::F64.point_tolerance();
             let [point, normal] = parts_of_tolerance(numbers, &expected[index], &found, tolerance);
             Some(point.max(normal))
         });
@@ -171,39 +138,78 @@ fn points(exact: &ExactChord, numbers: [f64; 10], format: Format) -> Option<f64>
 
 #[test]
 fn points_in_pairs_keep_their_tolerance() {
-    // Radii down to what pairs are certain of.
-    let mut lies = [10, 30, 42, 44, 46, 49, 50, 51].map(|places| {
-        let radius_squared = 2_f64.powi(-places);
-        Lie { power: 1.0 - radius_squared, discriminant: radius_squared / 8.0 }
-    });
-    lies[0] = Lie { power: 1e-12, discriminant: 0.5 };
-    let part = |exact: &ExactChord, numbers| points(exact, numbers, Format::F64);
-    assert!(search_settings("point from pairs", &lies, part) > 0.1);
-    assert!(search_settings("point from pairs, almost in doubt", &ALMOST_IN_DOUBT, part) > 0.1);
-    let part = |exact: &ExactChord, numbers| points(exact, numbers, Format::F32);
-    assert!(search_settings("point from pairs in f32", &lies, part) > 0.1);
+    assert!(search_settings("point from pairs", &ANYWHERE, points) > 0.1);
+    assert!(search_settings("point from pairs, almost in doubt", &ALMOST_IN_DOUBT, points) > 0.1);
 }
 
 #[test]
 fn what_pairs_are_certain_of_is_right() {
     let mut random = Random::new(1);
-    let (mut doubts, count) = (0, 2000);
+    let (mut doubts, count) = (0, 3000);
     for _ in 0..count {
-        let [x, y] = [0; 2].map(|_| 2_f64.powi(random.integer(-106..=-30)));
-        let lie = match random.below(3) {
+        let [x, y] = [0; 2].map(|_| 2_f64.powi(random.integer(-112..=-10)));
+        let lie = match random.below(4) {
             0 => Lie { power: x, discriminant: y },
             1 => Lie { power: -x, discriminant: x.max(y) },
+            2 => Lie { power: 1.0 - x, discriminant: x * y.max(1e-6) },
             _ => Lie { power: 0.5, discriminant: -y },
         };
         let numbers = setting(&mut random, lie);
         let exact = ExactChord::new(numbers);
-        match roots(&exact, numbers) {
-            Some(part) => assert!(part <= 1.0, "{numbers:?}"),
-            None if exact.discriminant.is_negative() => {}
-            None => doubts += 1,
+        for part in [roots(&exact, numbers), points(&exact, numbers)] {
+            match part {
+                Some(part) => assert!(part <= 1.0, "{numbers:?}"),
+                None if exact.discriminant.is_negative() => {}
+                None => doubts += 1,
+            }
         }
     }
     assert!(doubts < count / 2, "{doubts} of {count} in doubt");
+}
+
+#[test]
+fn the_side_of_a_number_is_that_of_its_exact_offset() {
+    let mut random = Random::new(7);
+    let (mut certain, count) = (0, 4000);
+    for round in 0..count {
+        let lie = ANYWHERE[random.below(ANYWHERE.len())];
+        let mut numbers = setting(&mut random, lie);
+        if round % 2 == 0 {
+            // A sphere of half an ulp of the distance, whose center is a number and whose root is midway, or close to it.
+            let beside = 2_f64.powi(-random.integer(1..=60)) * U;
+            numbers = [1.5, beside, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, U];
+        }
+        let exact = ExactChord::new(numbers);
+        let Some([near, far]) = exact.roots() else { continue };
+        in_pairs(&exact, numbers, |chord| {
+            for root in [near, far] {
+                let t = root.approximately();
+                let (integer, exponent) = crate::arithmetic::scaling::integer_and_exponent(t);
+                for above in [-1, 1] {
+                    let integer = 2 * i64::try_from(integer).expect("53 bits") + above;
+                    let integer = if t < 0.0 { -integer } else { integer };
+                    let midpoint = Midpoint { integer, exponent: exponent - 1 };
+                    #[expect(clippy::cast_precision_loss, reason = "two numbers of 53 bits")]
+                    let number = &Dyadic::exactly(scale((integer - 1) as f64, exponent - 1))
+                        + &Dyadic::exactly(scale(1.0, exponent - 1));
+                    let offset = ExactLine::new(numbers).offset(&number);
+                    let square = length_squared(&offset);
+                    let expected = !(&square - &exact.radius_squared()).is_negative();
+                    if let Some(is_outside) = chord.sign_at(midpoint) {
+                        assert_eq!(is_outside, expected, "{midpoint:?} {numbers:?}");
+                        certain += 1;
+                    }
+                }
+            }
+            Some(())
+        });
+    }
+    assert!(certain > 3 * count, "{certain} certain");
+}
+
+fn length_squared(vector: &[Dyadic; 3]) -> Dyadic {
+    let [x, y, z] = [0, 1, 2].map(|axis: usize| &vector[axis] * &vector[axis]);
+    &(&x + &y) + &z
 }
 
 #[test]
@@ -234,7 +240,7 @@ fn pairs_are_not_certain_of_tangents() {
         if let Some(part) = roots(&exact, numbers) {
             assert!(part <= 1.0, "{numbers:?}");
         }
-        doubts += u32::from(matches!(chord(&line(numbers), Format::F64), Verdict::Doubt));
+        doubts += u32::from(matches!(chord(&line(numbers)), Verdict::Doubt));
     }
     assert!((count / 5..count * 4 / 5).contains(&doubts), "{doubts} of {count} in doubt");
 }
@@ -250,15 +256,14 @@ fn lines_of_any_size_are_brought_near_1() {
             *number = scale(*number, if (6..9).contains(&index) { directions } else { lengths });
         }
         let [here, there] = [numbers, scaled].map(line);
-        let (Verdict::Hit(here), Verdict::Hit(there)) =
-            (chord(&here, Format::F64), chord(&there, Format::F64))
-        else {
+        let (Verdict::Hit(here), Verdict::Hit(there)) = (chord(&here), chord(&there)) else {
             panic!("both hit: {numbers:?}");
         };
-        let e = there.scaled.length_exponent - there.scaled.direction_exponent;
+        let e = there.scaled.exponent();
+        assert_eq!(there.scaled.is_scaled(), lengths.abs() > 199 || directions.abs() > 199);
         for side in [Side::Near, Side::Far] {
             let [here, found] =
-                [here.estimate(side), there.estimate(side)].map(|root| root.expect("clear").t);
+                [here.corrected(side), there.corrected(side)].map(|root| root.expect("clear").t);
             let expected = exactly(here).scaled(i64::from(lengths - directions));
             assert_eq!(exactly(found).scaled(e.into()), expected, "2^{lengths} 2^{directions}");
             // In the units of the caller, if that is exact.
@@ -275,7 +280,7 @@ fn lines_of_any_size_are_brought_near_1() {
 
 #[test]
 fn no_pair_is_no_chord() {
-    let doubt = |numbers| matches!(chord(&line(numbers), Format::F64), Verdict::Doubt);
+    let doubt = |numbers| matches!(chord(&line(numbers)), Verdict::Doubt);
     // A difference that overflows, and all lengths zero.
     let far = f64::MAX;
     assert!(doubt([far, 0.0, 0.0, -far, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0]));
@@ -283,19 +288,6 @@ fn no_pair_is_no_chord() {
     // A tangent.
     assert!(doubt([5.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 2.0]));
     assert!(!doubt([5.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 2.5]));
-}
-
-#[test]
-fn points_in_units_of_f32_too() {
-    let mut random = Random::new(9);
-    for _ in 0..300 {
-        let lie = ANYWHERE[random.below(ANYWHERE.len())];
-        let numbers = single(setting(&mut random, lie));
-        let exact = ExactChord::new(numbers);
-        if let Some(part) = points(&exact, numbers, Format::F32) {
-            assert!(part <= 1.0, "{numbers:?}");
-        }
-    }
 }
 
 #[test]

@@ -92,7 +92,7 @@ const SMALL: [Lie; 10] = [
 ];
 
 /// The small root of a line that starts close to the surface, its exact value, and the line.
-fn small(exact: &ExactChord, numbers: [f64; 10]) -> Option<(Estimate, Dyadic)> {
+fn small(exact: &ExactChord, numbers: [f64; 10]) -> Option<((Pair, f64), Dyadic)> {
     let line = line(numbers);
     let (chord, half_chord, larger) = chord(&line);
     if !is_close(&chord, half_chord, larger) {
@@ -111,7 +111,7 @@ fn small(exact: &ExactChord, numbers: [f64; 10]) -> Option<(Estimate, Dyadic)> {
 #[test]
 fn small_roots_keep_their_bound() {
     let part = |exact: &ExactChord, numbers| {
-        let (Estimate { t, relative_error, .. }, expected) = small(exact, numbers)?;
+        let ((t, relative_error), expected) = small(exact, numbers)?;
         let bound = &Dyadic::exactly(relative_error) * &expected.clone().abs();
         Some(part_of_bound(&exactly(t), &expected, &bound))
     };
@@ -119,7 +119,7 @@ fn small_roots_keep_their_bound() {
 
     // By what is left where the power is that good, the bound of the rest is looked at alone.
     let part = |exact: &ExactChord, numbers| {
-        let (Estimate { t, .. }, expected) = small(exact, numbers)?;
+        let ((t, _), expected) = small(exact, numbers)?;
         let (_, power_error) = power(line(numbers).o(), line(numbers).radius);
         let power_error = Dyadic::exactly(power_error).divided_by(&exact.power, 100).abs();
         let bound = &(&Dyadic::exactly(ROOT_ERROR) + &power_error) * &expected.clone().abs();
@@ -151,7 +151,7 @@ fn what_is_close_has_a_chord_and_a_small_root() {
 #[test]
 fn points_keep_their_tolerance() {
     let part = |exact: &ExactChord, numbers| {
-        let (Estimate { t, relative_error, .. }, expected) = small(exact, numbers)?;
+        let ((t, relative_error), expected) = small(exact, numbers)?;
         // As certain as rounding needs, too.
         if relative_error > f64::EPSILON / 1000.0 {
             return None;
