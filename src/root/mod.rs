@@ -112,9 +112,6 @@ fn bounded(converted: Line, line: &Line, question: &Question) -> Option<Answer> 
 /// Takes the step of `f64` in pairs, and integers where there is a doubt.
 #[inline(always)]
 fn in_pairs(line: &Line, question: &Question) -> Option<Answer> {
-    if !line.is_valid() {
-        return None;
-    }
     match pairs::chord(line).and_then(|chord| question.ask(&chord)) {
         Verdict::Miss => None,
         Verdict::Hit(answer) => Some(answer),

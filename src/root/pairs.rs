@@ -93,11 +93,16 @@ fn offset(Scaled { o, d, .. }: &Scaled, t: f64) -> Triple<Pair> {
     })
 }
 
-/// Takes the chord of a valid line.
+/// Takes the chord of a line.
+///
+/// A NaN, an infinity, a zero direction and a negative radius end in doubt.
 #[inline(always)]
 pub(super) fn chord(line: &Line) -> Verdict<InPairs<'_>> {
     let Some(mut scaled) = Scaled::new(line) else { return Verdict::Doubt };
     let Scaled { o, d, radius, .. } = scaled;
+    if radius < 0.0 {
+        return Verdict::Doubt;
+    }
     let radius_squared = radius * radius;
     let plain = bounded::Plain::new(o.map(|o| o.hi), d, radius_squared);
     let Chord { a, h, distance_squared, discriminant, .. } = plain.chord;
@@ -231,12 +236,20 @@ impl Crossings for InPairs<'_> {
         }
         // p + t d is c + w.
         let offset = w.zip(d, |w, d| without_dust(Pair { hi: w.hi, lo: w.lo + d * correction }));
-        let point = Triple::from(self.line.center).zip(offset, |center, offset| {
-            let sum = two_sum(center, scale(offset.hi, length_exponent));
-            // Not where it overflows.
-            let low = sum.lo + scale(offset.lo, length_exponent);
-            if sum.hi.is_finite() { sum.hi + low } else { sum.hi }
-        });
+        let center = Triple::from(self.line.center);
+        let point = if self.scaled.is_scaled() {
+            center.zip(offset, |center, offset| {
+                let sum = two_sum(center, scale(offset.hi, length_exponent));
+                // Not where it overflows.
+                let low = sum.lo + scale(offset.lo, length_exponent);
+                if sum.hi.is_finite() { sum.hi + low } else { sum.hi }
+            })
+        } else {
+            center.zip(offset, |center, offset| {
+                let sum = two_sum(center, offset.hi);
+                sum.hi + (sum.lo + offset.lo)
+            })
+        };
         let normal = offset.map(|offset| (offset.hi + offset.lo) / radius);
         Some(Found { t, point: point.into(), normal: normal.into() })
     }
