@@ -74,7 +74,8 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
         return None;
     }
     let (is_outside, is_behind) = (power.0.hi > 0.0, chord.h < 0.0);
-    if is_outside && is_behind {
+    if is_behind && power.0.hi >= 0.0 {
+        // Both roots are behind, or the far one is 0.
         return Some(None);
     }
     if !is_outside && !is_behind {
