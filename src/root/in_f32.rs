@@ -4,13 +4,13 @@ use core::ops::Range;
 
 use glam::Vec3;
 
-use super::chord::Derivation;
+use super::chord::{Chord, Derivation};
 use super::crossing::{Found, Line, Setting, Side};
 use super::format::Format;
 use super::halves;
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully_f32, integers, nearest_carefully_f32};
+use super::{both_carefully_f32, integers, nearest_carefully_f32, surface};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::pair::U;
 use crate::arithmetic::rounding::rounds_safely;
@@ -72,6 +72,26 @@ fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
     Format::F32.round(t.into(), plain::ROOT_ERROR / CLEAR, compare).map(|t| t as f32)
 }
 
+/// The nearest root of a line that starts exactly on the surface: its roots are 0 and 2 h / a.
+#[cold]
+#[inline(never)]
+fn from_the_surface(line: &Line, chord: &Chord<f64>) -> Nearest {
+    let Chord { a, h, distance_squared, .. } = *chord;
+    let (power, error) = surface::power(line.o(), line.radius);
+    // With h² > clear a m, h errs by less than the plain step's roots.
+    if line.radius < 0.0
+        || power.hi != 0.0
+        || error != 0.0
+        || h * h <= CLEAR * (a * distance_squared)
+    {
+        Nearest::Doubt
+    } else if h < 0.0 {
+        Nearest::Miss
+    } else {
+        Nearest::Root { t: 2.0 * h / a, half_chord: -h }
+    }
+}
+
 /// The nearest hit where the plain step is in doubt: once more, with a finer power close to the surface, and with the bound of
 /// the case from afar.
 #[cold]
@@ -90,7 +110,12 @@ fn nearest_again(
     let is_far = chord.distance_squared > NEAR * setting.radius_squared;
     // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
     let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
-    match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
+    let nearest = match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
+        Nearest::Doubt => from_the_surface(line, &chord),
+        nearest => nearest,
+    };
+    match nearest {
+        Nearest::Miss => return None,
         Nearest::Root { t, half_chord } => {
             let rounded = if rounds_safely::<MARGIN>(t) {
                 Some(t as f32)
@@ -115,7 +140,7 @@ fn nearest_again(
                 return (rounded < end).then(|| setting.found_from_afar(chord.a, rounded, 1.0));
             }
         }
-        Nearest::Miss | Nearest::Doubt => {}
+        Nearest::Doubt => {}
     }
     nearest_carefully_f32(sphere, ray, line, start.into()..end.into())
 }
