@@ -4,6 +4,7 @@ use core::ops::Range;
 
 use glam::Vec3;
 
+use super::bounded::Plain;
 use super::chord::{Chord, Derivation};
 use super::crossing::{Found, Line, Setting, Side};
 use super::format::Format;
@@ -105,44 +106,70 @@ fn nearest_again(
 ) -> Option<Found> {
     let setting = Setting::new(sphere, ray);
     let chord = setting.chord::<Quadratic>();
+    let is_far = chord.distance_squared > NEAR * setting.radius_squared;
+    let nearest = if is_far { from_afar(&setting) } else { again(&setting, line, &chord) };
+    let Nearest::Root { t, half_chord } = nearest else {
+        if matches!(nearest, Nearest::Miss) {
+            return None;
+        }
+        return nearest_carefully_f32(sphere, ray, line, start.into()..end.into());
+    };
+    let rounded = if rounds_safely::<MARGIN>(t) {
+        Some(t as f32)
+    } else {
+        round_carefully(line, t, half_chord)
+    };
+    // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
+    match rounded {
+        Some(rounded) if rounded >= start && rounded >= f32::MIN_POSITIVE => {
+            (rounded < end).then(|| {
+                if is_far {
+                    setting.found_from_afar(chord.a, rounded, half_chord)
+                } else {
+                    setting.found(t, rounded)
+                }
+            })
+        }
+        _ => nearest_carefully_f32(sphere, ray, line, start.into()..end.into()),
+    }
+}
+
+/// The nearest root ahead, with a finer power.
+#[inline(always)]
+fn again(setting: &Setting, line: &Line, chord: &Chord<f64>) -> Nearest {
     let larger = chord.distance_squared.max(setting.radius_squared);
     let fine_power = || Some(halves::power(setting.line, setting.o, larger));
-    let is_far = chord.distance_squared > NEAR * setting.radius_squared;
-    // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
-    let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
-    let nearest = match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
-        Nearest::Doubt => from_the_surface(line, &chord),
+    match plain::nearest_ahead(chord, setting.radius_squared, CLEAR, fine_power) {
+        Nearest::Doubt => from_the_surface(line, chord),
         nearest => nearest,
-    };
-    match nearest {
-        Nearest::Miss => return None,
-        Nearest::Root { t, half_chord } => {
-            let rounded = if rounds_safely::<MARGIN>(t) {
-                Some(t as f32)
-            } else {
-                round_carefully(line, t, half_chord)
-            };
-            if let Some(rounded) = rounded {
-                if is_certain(rounded) {
-                    return (rounded < end).then(|| {
-                        if is_far {
-                            setting.found_from_afar(chord.a, rounded, half_chord)
-                        } else {
-                            setting.found(t, rounded)
-                        }
-                    });
-                }
-            }
-        }
-        Nearest::Rough { t, error } => {
-            let [low, rounded] = [(t - error) as f32, (t + error) as f32];
-            if low == rounded && is_certain(rounded) && is_far {
-                return (rounded < end).then(|| setting.found_from_afar(chord.a, rounded, 1.0));
-            }
-        }
-        Nearest::Doubt => {}
     }
-    nearest_carefully_f32(sphere, ray, line, start.into()..end.into())
+}
+
+/// The nearest root ahead from farther than [`NEAR`], by the closest approach.
+///
+/// With the discriminant within e, half the chord s errs by e / 2 s, which counts against a sum of P or more in the root, and in the
+/// point against a radius, of which it is to be less than 2⁻²⁶.
+#[inline(always)]
+fn from_afar(setting: &Setting) -> Nearest {
+    /// Of s P, so that the root errs by 2⁻³⁵ of itself.
+    const OF_REACH: f64 = 1.0 / 17_179_869_184.0; // 2^-34
+    const OF_RADIUS: f64 = 1.0 / 33_554_432.0; // 2^-25
+    /// The foot of the closest approach errs by 4√2 u |o|, less than 2⁻²⁶ r up to |o| = 2²⁴ r.
+    const FARTHEST: f64 = 281_474_976_710_656.0; // 2^48
+
+    let Setting { line, o, radius_squared } = *setting;
+    let Plain { chord, error, reach_squared, .. } =
+        Plain::new(o.into(), line.direction.into(), radius_squared);
+    let Chord { a, h, power, discriminant, distance_squared } = chord;
+    // Outside for sure: both roots lie on the side of the closest approach, as in the plain step.
+    if h <= 0.0 || discriminant < -error {
+        return Nearest::Miss;
+    }
+    let half_chord = sqrt(discriminant);
+    let is_certain = error < OF_REACH * (half_chord * sqrt(reach_squared))
+        && error < OF_RADIUS * (half_chord * line.radius * sqrt(a))
+        && distance_squared < FARTHEST * radius_squared;
+    if is_certain { Nearest::Root { t: power / (h + half_chord), half_chord } } else { Nearest::Doubt }
 }
 
 impl Precision for Vec3 {
@@ -176,7 +203,7 @@ impl Precision for Vec3 {
                     };
                 }
             }
-            Nearest::Rough { .. } | Nearest::Doubt => {}
+            Nearest::Doubt => {}
         }
         let found = nearest_again(sphere, ray, &Line::new(sphere, ray), range)?;
         Some(hit(setting.line, found))

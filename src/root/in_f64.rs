@@ -143,7 +143,7 @@ impl Precision for DVec3 {
                         }
                     }
                 }
-                Nearest::Rough { .. } | Nearest::Doubt => {}
+                Nearest::Doubt => {}
             }
         }
         let found = nearest_again(&Line::new(sphere, ray), range)?;

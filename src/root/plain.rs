@@ -61,9 +61,6 @@ pub(super) const ROOT_ERROR: f64 = POWER_ERROR + DISCRIMINANT_ERROR / 2.0 + U / 
 /// Beyond this part of m, a power from a finer sum is certain enough: see [`nearest_ahead`].
 const FINE_POWER: f64 = 1.0 / 1_099_511_627_776.0; // 2^-40
 
-/// Of a root whose discriminant is only just certain to be positive, times |half-chord| / m.
-const ROUGH_ERROR: f64 = POWER_ERROR + DISCRIMINANT_ERROR + 2.0 * U;
-
 /// The nearest root ahead.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Nearest {
@@ -75,8 +72,6 @@ pub(super) enum Nearest {
         /// √discriminant where the ray enters there, -√discriminant where it leaves.
         half_chord: f64,
     },
-    /// From outside, this one, within `error`.
-    Rough { t: f64, error: f64 },
     /// The next step has to look.
     Doubt,
 }
@@ -118,8 +113,6 @@ pub(super) fn nearest_ahead(
                     return Nearest::Root { t: power / sum, half_chord };
                 }
             }
-        } else if discriminant > doubtful {
-            return Nearest::Rough { t, error: ROUGH_ERROR * distance_squared / half_chord };
         }
     } else if power < -SURE_SIGN * radius_squared {
         // Inside: one root lies ahead, (h + s) / a, and it cancels where the center is behind.

@@ -48,17 +48,13 @@ fn effort(sphere: &Sphere, ray: &Ray) -> Effort {
         }
         _ => {}
     }
-    let larger = chord.distance_squared.max(setting.radius_squared);
-    let fine_power = || Some(halves::power(setting.line, setting.o, larger));
-    match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
-        Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) && is_certain(t) => {
-            return Effort::Again;
-        }
-        Nearest::Rough { t, error } => {
-            let is_far = chord.distance_squared > NEAR * setting.radius_squared;
-            if (t - error) as f32 == (t + error) as f32 && is_certain(t) && is_far {
-                return Effort::Again;
-            }
+    let is_far = chord.distance_squared > NEAR * setting.radius_squared;
+    let nearest =
+        if is_far { from_afar(&setting) } else { again(&setting, &setting.line, &chord) };
+    match nearest {
+        Nearest::Miss => return Effort::Again,
+        Nearest::Root { t, .. } if is_certain(t) => {
+            return if rounds_safely::<MARGIN>(t) { Effort::Again } else { Effort::Integers };
         }
         _ => {}
     }

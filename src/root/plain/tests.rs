@@ -65,12 +65,6 @@ impl Case {
                 assert!(!exact.is_negative(), "the root is behind");
                 Some(Self::part(t, &exact, ROOT_ERROR / clear, &exact))
             }
-            Nearest::Rough { t, error } => {
-                assert!(!inside, "rough from inside");
-                let exact = &self.exact.roots().expect("there is no root")[0];
-                assert!(!exact.is_negative(), "the root is behind");
-                Some(Self::part(t, exact, error, &Dyadic::new(1, 0)))
-            }
         }
     }
 
@@ -144,8 +138,8 @@ const ANYWHERE: [Lie; 5] = [
 #[test]
 fn the_constants_are_those_of_the_analysis() {
     assert_eq!(
-        [DISCRIMINANT_ERROR, POWER_ERROR, ROOT_ERROR, ROUGH_ERROR, SURE_MISS, SURE_SIGN],
-        [21.0, 7.0, 18.0, 30.0, 22.0, 8.0].map(|count| count * U)
+        [DISCRIMINANT_ERROR, POWER_ERROR, ROOT_ERROR, SURE_MISS, SURE_SIGN],
+        [21.0, 7.0, 18.0, 22.0, 8.0].map(|count| count * U)
     );
 }
 
@@ -166,10 +160,7 @@ fn powers_keep_their_bound() {
 fn nearest_roots_keep_their_bound() {
     for clear in CLEARS {
         let lies = &almost_in_doubt(clear);
-        let part = |case: &Case| {
-            let root = nearest_ahead(&case.chord, case.radius_squared, clear, || None);
-            if matches!(root, Nearest::Rough { .. }) { None } else { case.nearest(clear, None) }
-        };
+        let part = |case: &Case| case.nearest(clear, None);
         assert!(search_chords::<Quadratic>("nearest root, algebraic", lies, part) > 0.1);
         assert!(search_chords::<ClosestApproach>("nearest root, geometric", lies, part) > 0.1);
     }
@@ -224,24 +215,6 @@ fn a_finer_power_is_asked_only_close_to_the_surface() {
         let found = asked(Lie { power, discriminant });
         assert!(found == count || (power < 0.0 && found == 0), "{power} {discriminant}: {found}");
     }
-}
-
-#[test]
-fn rough_roots_keep_their_bound() {
-    let clear = in_f32::CLEAR;
-    let lies = [
-        Lie { power: 0.5, discriminant: 5e-15 },
-        Lie { power: 0.99, discriminant: 4e-15 },
-        Lie { power: 0.9999, discriminant: 1e-12 },
-        Lie { power: 1e-8, discriminant: 1e-13 },
-        Lie { power: 3e-15, discriminant: 5e-15 },
-    ];
-    let part = |case: &Case| match nearest_ahead(&case.chord, case.radius_squared, clear, || None) {
-        Nearest::Rough { .. } => case.nearest(clear, None),
-        _ => None,
-    };
-    assert!(search_chords::<Quadratic>("rough root, algebraic", &lies, part) > 0.05);
-    assert!(search_chords::<ClosestApproach>("rough root, geometric", &lies, part) > 0.05);
 }
 
 #[test]
@@ -331,7 +304,7 @@ fn odd_arguments_are_no_hits() {
         let nearest = nearest_ahead(&chord, radius_squared, in_f32::CLEAR, || Some(f64::NAN));
         let both = both(&chord, radius_squared, in_f32::CLEAR);
         (
-            matches!(nearest, Nearest::Root { .. } | Nearest::Rough { .. }),
+            matches!(nearest, Nearest::Root { .. }),
             matches!(both, Both::Roots { .. }),
             matches!(nearest, Nearest::Doubt),
             matches!(both, Both::Doubt),
@@ -392,9 +365,6 @@ fn units_of_length_and_of_the_direction_change_nothing() {
         let same = match (ask(&here, power), ask(&there, power * 2_f64.powi(2 * lengths))) {
             (Nearest::Miss, Nearest::Miss) | (Nearest::Doubt, Nearest::Doubt) => true,
             (Nearest::Root { t, .. }, Nearest::Root { t: found, .. }) => in_units(t) == found,
-            (Nearest::Rough { t, error }, Nearest::Rough { t: found, error: found_error }) => {
-                in_units(t) == found && in_units(error) == found_error
-            }
             _ => false,
         };
         assert!(same, "2^{lengths} 2^{directions} {numbers:?}");
