@@ -4,14 +4,14 @@ use core::ops::Range;
 
 use glam::Vec3;
 
-use super::bounded::Plain;
+use super::bounded::Bounded;
 use super::chord::{Chord, Derivation};
 use super::crossing::{Found, Line, Setting, Side};
 use super::format::Format;
 use super::halves;
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully_f32, integers, nearest_carefully_f32, surface};
+use super::{both_carefully, integers, nearest_carefully, surface};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::pair::U;
 use crate::arithmetic::rounding::rounds_safely;
@@ -112,7 +112,7 @@ fn nearest_again(
         if matches!(nearest, Nearest::Miss) {
             return None;
         }
-        return nearest_carefully_f32(sphere, ray, line, start.into()..end.into());
+        return nearest_carefully(line, Format::F32, start.into()..end.into());
     };
     let rounded = if rounds_safely::<MARGIN>(t) {
         Some(t as f32)
@@ -130,7 +130,7 @@ fn nearest_again(
                 }
             })
         }
-        _ => nearest_carefully_f32(sphere, ray, line, start.into()..end.into()),
+        _ => nearest_carefully(line, Format::F32, start.into()..end.into()),
     }
 }
 
@@ -158,8 +158,8 @@ fn from_afar(setting: &Setting) -> Nearest {
     const FARTHEST: f64 = 281_474_976_710_656.0; // 2^48
 
     let Setting { line, o, radius_squared } = *setting;
-    let Plain { chord, error, reach_squared, .. } =
-        Plain::new(o.into(), line.direction.into(), radius_squared);
+    let Bounded { chord, error, reach_squared, .. } =
+        Bounded::new(o.into(), line.direction.into(), radius_squared);
     let Chord { a, h, power, discriminant, distance_squared } = chord;
     // Outside for sure: both roots lie on the side of the closest approach, as in the plain step.
     if h <= 0.0 || discriminant < -error {
@@ -225,7 +225,7 @@ impl Precision for Vec3 {
             }
             _ => {}
         }
-        both_carefully_f32(sphere, ray, &Line::new(sphere, ray))
+        both_carefully(&Line::new(sphere, ray), Format::F32)
             .map(|roots| roots.map(|root| root as f32))
     }
 }

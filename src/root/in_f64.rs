@@ -10,7 +10,7 @@ use super::format::Format;
 use super::halves::{self, Correction};
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully_f64, integers, nearest_carefully_f64, surface};
+use super::{both_carefully, integers, nearest_carefully, surface};
 use crate::algebraic::Quadratic;
 use crate::float::sqrt;
 use crate::{Hit, Ray, Sphere};
@@ -52,7 +52,7 @@ impl Setting {
 #[cold]
 #[inline(never)]
 fn nearest_again(line: &Line, range: Range<f64>) -> Option<Found> {
-    from_the_surface(*line, &range).unwrap_or_else(|| nearest_carefully_f64(line, range))
+    from_the_surface(*line, &range).unwrap_or_else(|| nearest_carefully(line, Format::F64, range))
 }
 
 /// 2⁻⁹⁰⁰.
@@ -168,7 +168,7 @@ impl Precision for DVec3 {
                 Both::Doubt => {}
             }
         }
-        both_carefully_f64(&Line::new(sphere, ray))
+        both_carefully(&Line::new(sphere, ray), Format::F64)
     }
 }
 

@@ -27,7 +27,7 @@
 
 use core::cmp::Ordering;
 
-use super::bounded;
+use super::bounded::Bounded;
 use super::chord::Chord;
 use super::crossing::{Crossings, Found, Line, Side, Verdict};
 use super::format::{Format, Midpoint};
@@ -69,6 +69,7 @@ const MOST_BEND: f64 = 1.0 / 64.0;
 /// The chord from a point of the line, and the line.
 pub(super) struct InPairs<'a> {
     line: &'a Line,
+    format: Format,
     scaled: Scaled,
     /// t of that point.
     start: f64,
@@ -97,14 +98,14 @@ fn offset(Scaled { o, d, .. }: &Scaled, t: f64) -> Triple<Pair> {
 ///
 /// A NaN, an infinity, a zero direction and a negative radius end in doubt.
 #[inline(always)]
-pub(super) fn chord(line: &Line) -> Verdict<InPairs<'_>> {
+pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
     let Some(mut scaled) = Scaled::new(line) else { return Verdict::Doubt };
     let Scaled { o, d, radius, .. } = scaled;
     if radius < 0.0 {
         return Verdict::Doubt;
     }
     let radius_squared = radius * radius;
-    let plain = bounded::Plain::new(o.map(|o| o.hi), d, radius_squared);
+    let plain = Bounded::new(o.map(|o| o.hi), d, radius_squared);
     let Chord { a, h, distance_squared, discriminant, .. } = plain.chord;
     if discriminant < -plain.error {
         return Verdict::Miss;
@@ -112,7 +113,7 @@ pub(super) fn chord(line: &Line) -> Verdict<InPairs<'_>> {
     let size = sqrt(distance_squared.max(radius_squared));
     if discriminant > SURE * plain.error && discriminant > SURE_H * plain.reach_squared {
         let half_chord = sqrt(discriminant);
-        return Verdict::Hit(InPairs { line, scaled, start: 0.0, a, h, half_chord, size });
+        return Verdict::Hit(InPairs { line, format, scaled, start: 0.0, a, h, half_chord, size });
     }
 
     let start = h / a;
@@ -130,7 +131,7 @@ pub(super) fn chord(line: &Line) -> Verdict<InPairs<'_>> {
         let half_chord = sqrt(discriminant);
         scaled.o = w.map(|w| -w);
         let size = sqrt(larger);
-        return Verdict::Hit(InPairs { line, scaled, start, a, h: -along, half_chord, size });
+        return Verdict::Hit(InPairs { line, format, scaled, start, a, h: -along, half_chord, size });
     }
     Verdict::Doubt
 }
@@ -220,7 +221,7 @@ impl Crossings for InPairs<'_> {
         let corrected = self.corrected(side)?;
         let relative_error = corrected.error / corrected.t.hi.abs() + PAIR_ERROR;
         let exponent = self.scaled.exponent();
-        let t = Format::F64.round(corrected.t, relative_error, |Midpoint { integer, exponent: unit }| {
+        let t = self.format.round(corrected.t, relative_error, |Midpoint { integer, exponent: unit }| {
             self.compare(side, Midpoint { integer, exponent: unit + exponent })
         })?;
         Some((self.scaled.unscaled_root(t)?, corrected))
@@ -231,7 +232,7 @@ impl Crossings for InPairs<'_> {
         let Scaled { radius, .. } = self.scaled;
         let residual = OFFSET_ERROR * radius + OFFSET_REACH_ERROR * self.size;
         let offset_error = root.error * sqrt(self.a) + residual;
-        let is_certain = offset_error <= 0.5 * root.allowed(&self.scaled, self.a, Format::F64);
+        let is_certain = offset_error <= 0.5 * root.allowed(&self.scaled, self.a, self.format);
         is_certain.then(|| root.hit(self.line, &self.scaled, t))
     }
 }
