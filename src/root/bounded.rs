@@ -30,8 +30,10 @@ pub(super) struct Bounded {
     pub(super) chord: Chord<f64>,
     /// Of the discriminant.
     pub(super) error: f64,
-    /// P².
-    pub(super) reach_squared: f64,
+    /// |d|.
+    pub(super) length: f64,
+    /// |o|.
+    pub(super) distance: f64,
 }
 
 impl Bounded {
@@ -40,11 +42,16 @@ impl Bounded {
         let chord = ClosestApproach::chord(o, d, radius_squared);
         let moment = o.cross(d);
         let moment_squared = moment.dot(moment);
-        let reach_squared = chord.a * chord.distance_squared;
-        let size = chord.a * radius_squared.abs()
-            + moment_squared
-            + sqrt(moment_squared) * sqrt(reach_squared);
-        let error = DISCRIMINANT_ERROR * size + MOMENT_ERROR_SQUARED * reach_squared;
-        Self { chord, error, reach_squared }
+        let (length, distance) = (sqrt(chord.a), sqrt(chord.distance_squared));
+        let reach = length * distance;
+        let size = chord.a * radius_squared.abs() + moment_squared + sqrt(moment_squared) * reach;
+        let error = DISCRIMINANT_ERROR * size + MOMENT_ERROR_SQUARED * (reach * reach);
+        Self { chord, error, length, distance }
+    }
+
+    /// P.
+    #[inline(always)]
+    pub(super) fn reach(&self) -> f64 {
+        self.length * self.distance
     }
 }

@@ -155,20 +155,20 @@ fn from_afar(setting: &Setting) -> Nearest {
     const OF_REACH: f64 = 1.0 / 17_179_869_184.0; // 2^-34
     const OF_RADIUS: f64 = 1.0 / 33_554_432.0; // 2^-25
     /// The foot of the closest approach errs by 4√2 u |o|, less than 2⁻²⁶ r up to |o| = 2²⁴ r.
-    const FARTHEST: f64 = 281_474_976_710_656.0; // 2^48
+    const FARTHEST: f64 = 16_777_216.0; // 2^24
 
     let Setting { line, o, radius_squared } = *setting;
-    let Bounded { chord, error, reach_squared, .. } =
-        Bounded::new(o.into(), line.direction.into(), radius_squared);
-    let Chord { a, h, power, discriminant, distance_squared } = chord;
+    let bounded = Bounded::new(o.into(), line.direction.into(), radius_squared);
+    let Bounded { chord, error, length, distance } = bounded;
+    let Chord { h, power, discriminant, .. } = chord;
     // Outside for sure: both roots lie on the side of the closest approach, as in the plain step.
     if h <= 0.0 || discriminant < -error {
         return Nearest::Miss;
     }
     let half_chord = sqrt(discriminant);
-    let is_certain = error < OF_REACH * (half_chord * sqrt(reach_squared))
-        && error < OF_RADIUS * (half_chord * line.radius * sqrt(a))
-        && distance_squared < FARTHEST * radius_squared;
+    let is_certain = error < OF_REACH * (half_chord * bounded.reach())
+        && error < OF_RADIUS * (half_chord * line.radius * length)
+        && distance < FARTHEST * line.radius;
     if is_certain { Nearest::Root { t: power / (h + half_chord), half_chord } } else { Nearest::Doubt }
 }
 
