@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::bounded::Bounded;
 use super::chord::{Chord, Derivation};
-use super::crossing::{Found, Line, Setting, Side};
+use super::crossing::{Found, Line, Setting, Side, Verdict};
 use super::format::Format;
 use super::halves;
 use super::plain::{self, Both, Nearest};
@@ -107,7 +107,7 @@ fn nearest_again(
     let setting = Setting::new(sphere, ray);
     let chord = setting.chord::<Quadratic>();
     let is_far = chord.distance_squared > NEAR * setting.radius_squared;
-    let nearest = if is_far { from_afar(&setting) } else { again(&setting, line, &chord) };
+    let nearest = if is_far { from_afar(&setting, &chord) } else { again(&setting, line, &chord) };
     let Nearest::Root { t, half_chord } = nearest else {
         if matches!(nearest, Nearest::Miss) {
             return None;
@@ -145,12 +145,12 @@ fn again(setting: &Setting, line: &Line, chord: &Chord<f64>) -> Nearest {
     }
 }
 
-/// The nearest root ahead from farther than [`NEAR`], by the closest approach.
+/// Half the chord from farther than [`NEAR`], by the closest approach.
 ///
 /// With the discriminant within e, half the chord s errs by e / 2 s, which counts against a sum of P or more in the root, and in the
 /// point against a radius, of which it is to be less than 2⁻²⁶.
 #[inline(always)]
-fn from_afar(setting: &Setting) -> Nearest {
+fn half_chord_from_afar(setting: &Setting) -> Verdict<f64> {
     /// Of s P, so that the root errs by 2⁻³⁵ of itself.
     const OF_REACH: f64 = 1.0 / 17_179_869_184.0; // 2^-34
     const OF_RADIUS: f64 = 1.0 / 33_554_432.0; // 2^-25
@@ -159,17 +159,54 @@ fn from_afar(setting: &Setting) -> Nearest {
 
     let Setting { line, o, radius_squared } = *setting;
     let bounded = Bounded::new(o.into(), line.direction.into(), radius_squared);
-    let Bounded { chord, error, length, distance } = bounded;
-    let Chord { h, power, discriminant, .. } = chord;
-    // Outside for sure: both roots lie on the side of the closest approach, as in the plain step.
-    if h <= 0.0 || discriminant < -error {
-        return Nearest::Miss;
+    let Bounded { chord: Chord { discriminant, .. }, error, length, distance } = bounded;
+    if discriminant < -error {
+        return Verdict::Miss;
     }
     let half_chord = sqrt(discriminant);
     let is_certain = error < OF_REACH * (half_chord * bounded.reach())
         && error < OF_RADIUS * (half_chord * line.radius * length)
         && distance < FARTHEST * line.radius;
-    if is_certain { Nearest::Root { t: power / (h + half_chord), half_chord } } else { Nearest::Doubt }
+    if is_certain { Verdict::Hit(half_chord) } else { Verdict::Doubt }
+}
+
+/// The nearest root ahead from there.
+#[inline(always)]
+fn from_afar(setting: &Setting, &Chord { h, power, .. }: &Chord<f64>) -> Nearest {
+    // Outside for sure: both roots lie on the side of the closest approach, as in the plain step.
+    if h <= 0.0 {
+        return Nearest::Miss;
+    }
+    match half_chord_from_afar(setting) {
+        Verdict::Miss => Nearest::Miss,
+        Verdict::Hit(half_chord) => Nearest::Root { t: power / (h + half_chord), half_chord },
+        Verdict::Doubt => Nearest::Doubt,
+    }
+}
+
+/// Both roots where the plain step is in doubt: once more, as above.
+#[cold]
+#[inline(never)]
+fn both_again(sphere: &Sphere, ray: &Ray, line: &Line) -> Option<[f64; 2]> {
+    let setting = Setting::new(sphere, ray);
+    let chord = setting.chord::<Quadratic>();
+    let roots = if chord.distance_squared > NEAR * setting.radius_squared {
+        match half_chord_from_afar(&setting) {
+            Verdict::Miss => return None,
+            Verdict::Hit(half_chord) => Both::from_half_chord(&chord, half_chord),
+            Verdict::Doubt => Both::Doubt,
+        }
+    } else {
+        let larger = chord.distance_squared.max(setting.radius_squared);
+        let fine_power = || Some(halves::power(setting.line, setting.o, larger));
+        plain::both(&chord, setting.radius_squared, CLEAR, fine_power)
+    };
+    if let Both::Roots { t, .. } = roots {
+        if let Some(rounded) = surely_rounded(t) {
+            return Some(rounded.map(f64::from));
+        }
+    }
+    both_carefully(line, Format::F32)
 }
 
 impl Precision for Vec3 {
@@ -213,21 +250,31 @@ impl Precision for Vec3 {
     #[expect(clippy::cast_possible_truncation, reason = "the roots are rounded once, here")]
     fn roots<D: Derivation>(sphere: &Sphere, ray: &Ray) -> Option<[f32; 2]> {
         let setting = Setting::new(sphere, ray);
-        match plain::both(&setting.chord::<D>(), setting.radius_squared, CLEAR) {
+        match plain::both(&setting.chord::<D>(), setting.radius_squared, CLEAR, || None) {
             Both::Miss => return None,
-            Both::Roots { t: [near, far], .. }
-                if rounds_safely::<MARGIN>(near) && rounds_safely::<MARGIN>(far) =>
-            {
-                let rounded = [near as f32, far as f32];
-                if rounded[0].is_normal() && rounded[1].is_normal() {
+            Both::Roots { t, .. } => {
+                if let Some(rounded) = surely_rounded(t) {
                     return Some(rounded);
                 }
             }
-            _ => {}
+            Both::Doubt => {}
         }
-        both_carefully(&Line::new(sphere, ray), Format::F32)
-            .map(|roots| roots.map(|root| root as f32))
+        let roots = both_again(sphere, ray, &Line::new(sphere, ray))?;
+        Some(roots.map(|root| root as f32))
     }
+}
+
+/// Both roots of the plain step rounded, if that is certain.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the roots are rounded once, here")]
+fn surely_rounded([near, far]: [f64; 2]) -> Option<[f32; 2]> {
+    if rounds_safely::<MARGIN>(near) && rounds_safely::<MARGIN>(far) {
+        let rounded = [near as f32, far as f32];
+        if rounded[0].is_normal() && rounded[1].is_normal() {
+            return Some(rounded);
+        }
+    }
+    None
 }
 
 /// The hit, rounded.

@@ -154,7 +154,7 @@ impl Precision for DVec3 {
     fn roots<D: Derivation>(sphere: &Sphere<Self>, ray: &Ray<Self>) -> Option<[f64; 2]> {
         let setting = Setting::new(sphere, ray);
         if let Some(chord) = setting.safe_chord::<D>() {
-            match plain::both(&chord, setting.radius_squared, halves::CLEAR) {
+            match plain::both(&chord, setting.radius_squared, halves::CLEAR, || None) {
                 Both::Miss => return None,
                 Both::Roots { t: [near, far], half_chord } => {
                     let correction = setting.correction(&chord);

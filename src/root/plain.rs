@@ -148,20 +148,41 @@ pub(super) enum Both {
     Doubt,
 }
 
-/// Finds both roots of a chord in plain `f64`. What [`nearest_ahead`] says of odd arguments holds here too.
+impl Both {
+    /// The root that does not cancel, and the smaller one from the product of the roots.
+    #[inline(always)]
+    pub(super) fn from_half_chord(chord: &Chord<f64>, half_chord: f64) -> Self {
+        let Chord { a, h, power, .. } = *chord;
+        let sum = h.abs() + half_chord;
+        let (x, y) = (sum / a, power / sum);
+        Self::Roots { t: if h > 0.0 { [y, x] } else { [-x, -y] }, half_chord }
+    }
+}
+
+/// Finds both roots of a chord in plain `f64`. What [`nearest_ahead`] says of a finer power and of odd arguments holds here too.
 #[inline(always)]
-pub(super) fn both(chord: &Chord<f64>, radius_squared: f64, clear: f64) -> Both {
+pub(super) fn both(
+    chord: &Chord<f64>,
+    radius_squared: f64,
+    clear: f64,
+    fine_power: impl FnOnce() -> Option<f64>,
+) -> Both {
     let Chord { a, h, distance_squared, power, discriminant } = *chord;
     let larger = if power > 0.0 { distance_squared } else { radius_squared };
     if discriminant < -SURE_MISS * (a * larger) {
         return Both::Miss;
     }
-    // The root that does not cancel, and the smaller one from the product of the roots.
     let half_chord = sqrt(discriminant);
     let sum = h.abs() + half_chord;
-    let (x, y) = (sum / a, power / sum);
-    if half_chord * y.abs() > clear * larger {
-        return Both::Roots { t: if h > 0.0 { [y, x] } else { [-x, -y] }, half_chord };
+    if half_chord * (power / sum).abs() > clear * larger {
+        return Both::from_half_chord(chord, half_chord);
+    }
+    if half_chord * sum > clear * (a * larger) {
+        if let Some(power) = fine_power() {
+            if power.abs() > FINE_POWER * larger {
+                return Both::from_half_chord(&Chord { power, ..*chord }, half_chord);
+            }
+        }
     }
     Both::Doubt
 }

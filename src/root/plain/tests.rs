@@ -81,7 +81,7 @@ impl Case {
 
     /// The same of both roots: the larger part.
     fn both(&self, clear: f64) -> Option<f64> {
-        match both(&self.chord, self.radius_squared, clear) {
+        match both(&self.chord, self.radius_squared, clear, || None) {
             Both::Doubt => None,
             Both::Miss => {
                 assert!(self.exact.discriminant.is_negative(), "the line hits");
@@ -302,7 +302,7 @@ fn odd_arguments_are_no_hits() {
     let case = |o: DVec3, d: DVec3, radius_squared: f64| {
         let chord = Quadratic::chord(Triple::from(o), Triple::from(d), radius_squared);
         let nearest = nearest_ahead(&chord, radius_squared, in_f32::CLEAR, || Some(f64::NAN));
-        let both = both(&chord, radius_squared, in_f32::CLEAR);
+        let both = both(&chord, radius_squared, in_f32::CLEAR, || None);
         (
             matches!(nearest, Nearest::Root { .. }),
             matches!(both, Both::Roots { .. }),
@@ -369,8 +369,8 @@ fn units_of_length_and_of_the_direction_change_nothing() {
         };
         assert!(same, "2^{lengths} 2^{directions} {numbers:?}");
         let same = match (
-            both(&here.chord, here.radius_squared, in_f32::CLEAR),
-            both(&there.chord, there.radius_squared, in_f32::CLEAR),
+            both(&here.chord, here.radius_squared, in_f32::CLEAR, || None),
+            both(&there.chord, there.radius_squared, in_f32::CLEAR, || None),
         ) {
             (Both::Miss, Both::Miss) | (Both::Doubt, Both::Doubt) => true,
             (Both::Roots { t, .. }, Both::Roots { t: found, .. }) => t.map(in_units) == found,
@@ -390,7 +390,7 @@ fn clear_cases_are_not_in_doubt() {
                 let Case { chord, radius_squared, .. } = case;
                 let nearest = nearest_ahead(&chord, radius_squared, in_f32::CLEAR, || None);
                 assert!(matches!(nearest, Nearest::Miss), "{numbers:?}");
-                let both = both(&chord, radius_squared, in_f32::CLEAR);
+                let both = both(&chord, radius_squared, in_f32::CLEAR, || None);
                 assert!(matches!(both, Both::Miss), "{numbers:?}");
             }
         }
