@@ -113,7 +113,8 @@ impl Term {
     /// The sum, if it has the bits of a term.
     #[inline(always)]
     fn plus(self, other: Self) -> Option<Self> {
-        let (high, low) = if self.exponent < other.exponent { (other, self) } else { (self, other) };
+        let (high, low) =
+            if self.exponent < other.exponent { (other, self) } else { (self, other) };
         let places = (high.exponent - low.exponent).unsigned_abs();
         let fits = |term: Self, places: u32| {
             u128::BITS - term.integer.unsigned_abs().leading_zeros() + places < Self::BITS
