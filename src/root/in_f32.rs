@@ -78,7 +78,7 @@ fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
 #[inline(never)]
 fn from_the_surface(line: &Line, chord: &Chord<f64>) -> Nearest {
     let Chord { a, h, distance_squared, .. } = *chord;
-    let (power, error) = surface::power(line.o(), line.radius);
+    let (power, error) = surface::closest_power(line.o(), line.radius);
     // With h² > clear a m, h errs by less than the plain step's roots.
     if line.radius < 0.0
         || power.hi != 0.0

@@ -218,7 +218,7 @@ fn quadratic_at(line: &Line, number: Midpoint) -> Option<Ordering> {
     });
     let dropped = exact.x.1 + exact.y.1 + exact.z.1;
     let w = Triple { x: exact.x.0, y: exact.y.0, z: exact.z.0 };
-    let (power, error) = surface::power(w, line.radius);
+    let (power, error) = surface::closest_power(w, line.radius);
     // 0 only where all is exact.
     let size = w.x.hi.abs() + w.y.hi.abs() + w.z.hi.abs();
     let error = error + 3.0 * (size + dropped) * dropped;

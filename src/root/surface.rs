@@ -44,54 +44,94 @@ pub(super) fn power_in_pairs(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) 
 /// o·o - r², and how far off that may be, which is not at all where that is 0.
 ///
 /// First in pairs. Where their error is much of the power, what cancels is added up by two sums whose errors are kept: of the
-/// leading terms, and of the low parts and errors of these. What is dropped there, with the products that are smaller still, is added
-/// up plainly in 13 operations. With coordinates of few digits there is nothing to drop.
+/// leading terms, and of the at most 10 u m in the low parts and errors of these. The rest, at most 93 v m, is added up plainly, and
+/// errs by 1,400 u³ m. Where that is still much, by what there really is of a rest: with coordinates of few digits, nothing.
 #[inline(always)]
 pub(super) fn power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
-    const DROPPED_ERROR: f64 = 16.0 * U;
+    const CLOSE_ERROR: f64 = 1500.0 * U * V;
     const CLOSE: f64 = 1.0 / 1_073_741_824.0; // 2^-30
+    const CLOSER: f64 = CLOSE * CLOSE * CLOSE; // 2^-90
 
     let (power, larger) = power_in_pairs(exact_o, radius);
     if power.hi.abs() > CLOSE * larger {
         return (power, POWER_ERROR * larger);
     }
+    let terms = Terms::new(exact_o, radius);
+    let (power, ..) = terms.sum();
+    if power.hi.abs() > CLOSER * larger {
+        return (power, CLOSE_ERROR * larger + 2.0 * V * power.hi.abs());
+    }
+    closest_power(exact_o, radius)
+}
 
-    let (o, o_low) = (exact_o.map(|o| o.hi), exact_o.map(|o| o.lo));
-    let radius_squared = two_product(radius, radius);
-    let Triple { x, y, z } = o.map(|o| two_product(o, o));
-    let cross = o.zip(o_low, |o, low| two_product(2.0 * o, low));
-    let xy = two_sum(x.hi, y.hi);
-    let xyz = two_sum(xy.hi, z.hi);
-    let leading = two_difference(xyz.hi, radius_squared.hi);
-    let terms = [
-        y.lo,
-        z.lo,
-        -radius_squared.lo,
-        xy.lo,
-        xyz.lo,
-        leading.lo,
-        cross.x.hi,
-        cross.y.hi,
-        cross.z.hi,
-    ];
-    let (low, rest, dropped) =
-        terms.into_iter().fold((x.lo, 0.0, 0.0), |(low, rest, dropped), term| {
-            let sum = two_sum(low, term);
-            (sum.hi, rest + sum.lo, dropped + sum.lo.abs())
-        });
-    let low_squared = o_low.dot(o_low);
-    let rest = rest + ((cross.x.lo + cross.y.lo) + (cross.z.lo + low_squared));
-    let dropped =
-        dropped + (cross.x.lo.abs() + cross.y.lo.abs()) + (cross.z.lo.abs() + low_squared);
-    let sum = two_sum(leading.hi, low);
-    let power = two_sum(sum.hi, sum.lo + rest);
-    let is_whole = is_whole(o.x) && is_whole(o.y) && is_whole(o.z) && is_whole(radius);
-    let error = match (dropped == 0.0, is_whole) {
-        (true, true) => 0.0,
-        (_, true) => DROPPED_ERROR * dropped + 2.0 * V * power.hi.abs(),
-        (_, false) => DROPPED_ERROR * dropped + 2.0 * V * power.hi.abs() + f64::MIN_POSITIVE,
-    };
-    (power, error)
+/// The same, with an error of what there is of a rest: for where the power is likely to be 0, or next to it.
+#[cold]
+#[inline(never)]
+pub(super) fn closest_power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
+    /// Of the rest's terms, which are added up in 14 operations.
+    const REST_ERROR: f64 = 16.0 * U;
+    let (power, rest) = Terms::new(exact_o, radius).sum();
+    let is_zero = power.hi == 0.0
+        && rest == 0.0
+        && is_whole(radius)
+        && is_whole(exact_o.x.hi)
+        && is_whole(exact_o.y.hi)
+        && is_whole(exact_o.z.hi);
+    // The least is for what may underflow.
+    let error = REST_ERROR * rest + 2.0 * V * power.hi.abs() + f64::MIN_POSITIVE;
+    (power, if is_zero { 0.0 } else { error })
+}
+
+/// The terms of o·o - r².
+struct Terms {
+    leading: f64,
+    low: [f64; 10],
+    /// What is smaller still.
+    rest: [f64; 4],
+}
+
+impl Terms {
+    #[inline(always)]
+    fn new(exact_o: Triple<Pair>, radius: f64) -> Self {
+        let (o, o_low) = (exact_o.map(|o| o.hi), exact_o.map(|o| o.lo));
+        let radius_squared = two_product(radius, radius);
+        let Triple { x, y, z } = o.map(|o| two_product(o, o));
+        let cross = o.zip(o_low, |o, low| two_product(2.0 * o, low));
+        let xy = two_sum(x.hi, y.hi);
+        let xyz = two_sum(xy.hi, z.hi);
+        let leading = two_difference(xyz.hi, radius_squared.hi);
+        Self {
+            leading: leading.hi,
+            low: [
+                x.lo,
+                y.lo,
+                z.lo,
+                -radius_squared.lo,
+                xy.lo,
+                xyz.lo,
+                leading.lo,
+                cross.x.hi,
+                cross.y.hi,
+                cross.z.hi,
+            ],
+            rest: [cross.x.lo, cross.y.lo, cross.z.lo, o_low.dot(o_low)],
+        }
+    }
+
+    /// Their sum, and that of the rest's magnitudes.
+    #[inline(always)]
+    fn sum(&self) -> (Pair, f64) {
+        let Self { leading, low: [first, others @ ..], rest: [x, y, z, square] } = *self;
+        let (low, rest, magnitude) =
+            others.into_iter().fold((first, 0.0, 0.0), |(low, rest, magnitude), term| {
+                let sum = two_sum(low, term);
+                (sum.hi, rest + sum.lo, magnitude + sum.lo.abs())
+            });
+        let rest = rest + ((x + y) + (z + square));
+        let magnitude = magnitude + ((x.abs() + y.abs()) + (z.abs() + square));
+        let sum = two_sum(leading, low);
+        (two_sum(sum.hi, sum.lo + rest), magnitude)
+    }
 }
 
 /// Whether the square of a number is exactly a pair, because nothing of it underflows.
