@@ -11,9 +11,9 @@
 //! coordinate a multiple of the same power of two and of at most 26 bits, and a low part of the rest. A dot product of high
 //! parts is then exact in plain `f64`, whichever way it is summed up: each product is an integer multiple of one power of two,
 //! and by the inequality of Cauchy and Schwarz no partial sum exceeds 2⁵³ of these. Those of o are multiples of 2⁻²⁶ √m or more, as
-//! coarse as those of w at the least, so that their sum with w.high is exact too: |o| < 2¹⁶ r where a root is clear of doubt. Only products with
-//! low parts are rounded, and these are 2⁻²⁶ of the whole. (Rump, Ogita and Oishi, *Accurate Floating-Point Summation*, 2008,
-//! extract vectors so.)
+//! coarse as those of w at the least, so that their sum with w.high is exact too: |o| < 2¹⁶ r where a root is clear of doubt. Only
+//! products with low parts are rounded, and these are 2⁻²⁶ of the whole. (Rump, Ogita and Oishi, *Accurate Floating-Point
+//! Summation*, 2008, extract vectors so.)
 //!
 //! **The error**, with m the larger of o·o and r², and each t |d| ≤ 2 √m, to first order. What is rounded in a coordinate of w are
 //! t.high d.low, t.low d, their sum, its difference from o.low, and what is added to that: with low parts of 2⁻²⁵ of t, 2⁻²⁶ of

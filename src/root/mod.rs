@@ -1,36 +1,35 @@
 //! From a ray and a sphere to a correctly rounded root: arithmetic that is tried step by step, until one is certain.
 //!
 //! A [`chord`] is what both derivations find: how far away the line passes, and where. The way from there to the root reads
-//! downwards in this table; [`in_f32`] and [`in_f64`] are where it begins, in the user's code, and from `bounded` on it is one
+//! downwards in this table; [`in_f32`] and [`in_f64`] are where it begins, in the user's code, and from `pairs` on it is one
 //! function for both precisions. [`format`] rounds, and [`crossing`] chooses the root that a ray hits.
 //!
 //! | step | arithmetic | error known by | decides | ns, of a family |
 //! |:--|:--|:--|:--|:--|
 //! | [`plain`] | `f64` | one bound for all cases | hit, miss and root in `f32`; hit and miss in `f64` | 7, "inside" in `f32` |
 //! | [`halves`] | `f64`, exact in the leading 26 bits | one bound for all cases | the root in `f64` | 21, "inside" in `f64` |
-//! | again | `f64` with a finer power, and with the bound of the case | the same | `f32` close to the surface and from afar | 14, "on the surface" in `f32` |
+//! | again | `f64` with a finer power, or by the closest approach with a bound of the case ([`bounded`]) | the same | `f32` close to the surface and from afar | 14, "on the surface" in `f32` |
 //! | [`surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface | 50, "on the surface" in `f64` |
-//! | [`bounded`] | `f64`, by the closest approach | a bound of the case | the limb from afar | 47, "tiny" in `f64` |
-//! | [`pairs`] | pairs of `f64` | a bound of the case | the limb, and points from afar, in `f64` | 138, "at the limb" in `f64` |
-//! | [`integers`] | integers of 64 bits, or any | exact | tangents, origins exactly on the surface, ties | 172 and 198, "exact tangent" |
+//! | [`pairs`] | offsets and powers in pairs of `f64`, the rest in `f64` | a bound of the case | the limb, and from afar in `f64` | 77, "at the limb from afar" in `f64` |
+//! | [`integers`] | integers of 64 bits, or any | exact | tangents, ties | 160 and 170, "exact tangent" |
 //!
 //! How many in a hundred each decides (`cargo test --release --lib how_often -- --nocapture` has every family; "again" counts
-//! [`surface`]):
+//! [`surface`], and a root compared with the midpoint of two floats counts as integers in `f32`):
 //!
-//! | rays and spheres | | plain, halves | again | bounded | pairs | integers |
-//! |:--|:--|--:|--:|--:|--:|--:|
-//! | unit sphere at 2 to 10 | `f32` | 99.7 | 0 | 0.3 | 0 | 0 |
-//! | | `f64` | 99.8 | 0 | 0.2 | 0 | 0 |
-//! | distance/radius 1e4 to 1e7 | `f32` | 60.8 | 29.3 | 9.8 | 0 | 0.2 |
-//! | | `f64` | 60.9 | 0 | 9.8 | 29.4 | 0 |
-//! | huge spheres | `f32` | 81.4 | 18.2 | 0.3 | 0 | 0.1 |
-//! | | `f64` | 54.9 | 43.5 | 0.3 | 1.4 | 0 |
-//! | grazing the limb | `f32` | 99.7 | 0 | 0.4 | 0 | 0 |
-//! | | `f64` | 84.6 | 0 | 5.7 | 9.8 | 0 |
-//! | from the surface | `f32` | 49.1 | 50.3 | 0.5 | 0 | 0.2 |
-//! | | `f64` | 5.6 | 93.5 | 0 | 0.9 | 0 |
-//! | exact tangents | `f32` | 18.9 | 0 | 0 | 0 | 81.1 |
-//! | | `f64` | 19.3 | 0 | 0 | 0 | 80.7 |
+//! | rays and spheres | | plain, halves | again | pairs | integers |
+//! |:--|:--|--:|--:|--:|--:|
+//! | unit sphere at 2 to 10 | `f32` | 99.7 | 0 | 0 | 0.3 |
+//! | | `f64` | 99.8 | 0 | 0.2 | 0 |
+//! | distance/radius 1e4 to 1e7 | `f32` | 60.8 | 38.8 | 0.2 | 0.2 |
+//! | | `f64` | 60.9 | 0 | 39.1 | 0 |
+//! | huge spheres | `f32` | 81.4 | 18.2 | 0.1 | 0.3 |
+//! | | `f64` | 54.9 | 43.5 | 1.6 | 0 |
+//! | grazing the limb | `f32` | 99.7 | 0 | 0.2 | 0.1 |
+//! | | `f64` | 84.5 | 0 | 15.4 | 0 |
+//! | from the surface | `f32` | 49.1 | 50.3 | 0.2 | 0.4 |
+//! | | `f64` | 5.6 | 93.5 | 0 | 0.9 |
+//! | exact tangents | `f32` | 18.9 | 0 | 0 | 81.1 |
+//! | | `f64` | 19.3 | 0 | 0 | 80.7 |
 //!
 //! The nanoseconds are those of the nearest root of a family that the step decides, misses and the steps before it included, beside
 //! 2.8 of the textbook's on easy cases (`cargo bench --bench speed_vs_error -- --prices` has every family).
