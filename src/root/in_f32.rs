@@ -4,13 +4,14 @@ use core::ops::Range;
 
 use glam::Vec3;
 
-use super::chord::Derivation;
+use super::chord::{Chord, Derivation};
 use super::crossing::{Found, Line, Setting};
 use super::halves;
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
 use super::{both_carefully_f32, nearest_carefully_f32};
 use crate::algebraic::Quadratic;
+use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::pair::U;
 use crate::arithmetic::rounding::rounds_safely;
 use crate::float::sqrt;
@@ -46,16 +47,22 @@ impl Setting {
 
     /// The same from afar, where the error of t would move the point: by the closest approach.
     ///
-    /// Its foot is off by 4√2 u |o| at most, less than 2⁻²⁶ r up to |o| = 2²⁴ r, and farther away the discriminant is not certain
-    /// to be positive. Half the chord is off by 4 u (2 r² + r |o|) over itself, less than 2⁻²⁶ r where it is more than 2⁻²⁴ |o|, as
-    /// it is where the discriminant is more than 22 u a m.
+    /// Its foot, (h / a) d - o, is off by 8 u |o| along d, what h brings besides o's error, a, its reciprocal and a product; and by
+    /// u |o| each for o and for the product with d: by less than 10 u |o|. The square of half the chord's length is off by
+    /// 4 u r |o| for what the foot errs by at right angles to d, and by 5 u r²; that error along d counts as a square, as next to
+    /// nothing. So half the length, s / √a, is off by less than 5 u r |o| over itself, and 4 u r.
+    ///
+    /// A root that is not rough has s / √a > 2⁻¹⁶ |o|, and both are off by less than 2⁻³¹ r. Of a rough one, s² is at least 43 u a m:
+    /// then |o| < 2²³·⁸ r and s / √a > 2⁻²³·⁸ |o|, and they are off by 2⁻²⁵·⁸ r and 2⁻²⁶·⁸ r: by less than 2⁻²⁵ r together.
     #[inline(always)]
-    fn found_from_afar(&self, a: f64, rounded: f32, half_chord: f64) -> Found {
+    fn found_from_afar(&self, chord: &Chord<f64>, rounded: f32) -> Found {
         let Self { line, o, radius_squared } = *self;
-        let moment = o.cross(line.direction);
-        let square = a * radius_squared - moment.length_squared();
-        let along = sqrt(square.max(0.0)).copysign(-half_chord);
-        let offset = (moment.cross(line.direction) + line.direction * along) / a;
+        let per_a = chord.a.recip();
+        // From the center to the closest approach, and the square of half the chord's length.
+        let foot = line.direction * (chord.h * per_a) - o;
+        let square = radius_squared - foot.length_squared();
+        let along = if is_not_positive(square) { 0.0 } else { sqrt(square * per_a) };
+        let offset = foot - line.direction * along;
         let normal = offset * line.radius.recip();
         Found { t: rounded.into(), point: line.center + offset, normal }
     }
@@ -76,16 +83,16 @@ fn nearest_again(
     let chord = setting.chord::<Quadratic>();
     let larger = chord.distance_squared.max(setting.radius_squared);
     let fine_power = || Some(halves::power(setting.line, setting.o, larger));
-    let is_far = chord.distance_squared > NEAR * setting.radius_squared;
+    let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
     // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
     let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
     match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
-        Nearest::Root { t, half_chord } => {
+        Nearest::Root { t, .. } => {
             let rounded = t as f32;
             if rounds_safely::<MARGIN>(t) && is_certain(rounded) {
                 return (rounded < end).then(|| {
                     if is_far {
-                        setting.found_from_afar(chord.a, rounded, half_chord)
+                        setting.found_from_afar(&chord, rounded)
                     } else {
                         setting.found(t, rounded)
                     }
@@ -95,7 +102,7 @@ fn nearest_again(
         Nearest::Rough { t, error } => {
             let [low, rounded] = [(t - error) as f32, (t + error) as f32];
             if low == rounded && is_certain(rounded) && is_far {
-                return (rounded < end).then(|| setting.found_from_afar(chord.a, rounded, 1.0));
+                return (rounded < end).then(|| setting.found_from_afar(&chord, rounded));
             }
         }
         Nearest::Miss | Nearest::Doubt => {}
@@ -115,7 +122,7 @@ impl Precision for Vec3 {
         let chord = setting.chord::<D>();
         match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, || None) {
             Nearest::Miss => return None,
-            Nearest::Root { t, half_chord } => {
+            Nearest::Root { t, .. } => {
                 let rounded = t as f32;
                 // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
                 if rounds_safely::<MARGIN>(t)
@@ -126,8 +133,8 @@ impl Precision for Vec3 {
                         return None;
                     }
                     // The two apart, so that the compiler need not keep what one of them does without.
-                    return if chord.distance_squared > NEAR * setting.radius_squared {
-                        let found = setting.found_from_afar(chord.a, rounded, half_chord);
+                    return if exceeds(chord.distance_squared, NEAR, setting.radius_squared) {
+                        let found = setting.found_from_afar(&chord, rounded);
                         Some(hit(setting.line, found))
                     } else {
                         Some(hit(setting.line, setting.found(t, rounded)))

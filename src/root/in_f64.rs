@@ -86,7 +86,8 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
         let found = Found { t, point: corrected.point(), normal: corrected.offset() / line.radius };
         return Some(range.contains(&t).then_some(found));
     }
-    let (root, relative_error) = surface::small_root(o, line.direction.into(), &chord, half_chord, power);
+    let (root, relative_error) =
+        surface::small_root(o, line.direction.into(), &chord, half_chord, power);
     let side = if is_outside { Side::Near } else { Side::Far };
     let t = Format::F64.round(root, relative_error, |midpoint| {
         integers::compare_root(&{ line }, side, midpoint)

@@ -35,7 +35,9 @@ use super::integers;
 use super::scaled::Scaled;
 use super::surface::{POWER_ERROR, power_in_pairs};
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum};
+use crate::arithmetic::pair::{
+    Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum,
+};
 use crate::arithmetic::scaling::scale;
 use crate::float::sqrt;
 
@@ -218,7 +220,8 @@ impl Crossings for InPairs<'_> {
         let corrected = self.corrected(side)?;
         let relative_error = corrected.error / corrected.t.hi.abs() + PAIR_ERROR;
         let unscaled = self.scaled.unscaled_root(corrected.t)?;
-        let t = Format::F64.round(unscaled, relative_error, |midpoint| self.compare(side, midpoint))?;
+        let t =
+            Format::F64.round(unscaled, relative_error, |midpoint| self.compare(side, midpoint))?;
         Some((t, corrected))
     }
 

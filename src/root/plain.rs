@@ -37,6 +37,7 @@
 //! ```
 
 use super::chord::Chord;
+use crate::arithmetic::comparison::{exceeds, is_not_positive, product_exceeds};
 use crate::arithmetic::pair::U;
 use crate::float::sqrt;
 
@@ -61,8 +62,14 @@ pub(super) const ROOT_ERROR: f64 = POWER_ERROR + DISCRIMINANT_ERROR / 2.0 + U / 
 /// Beyond this part of m, a power from a finer sum is certain enough: see [`nearest_ahead`].
 const FINE_POWER: f64 = 1.0 / 1_099_511_627_776.0; // 2^-40
 
-/// Of a root whose discriminant is only just certain to be positive, times |half-chord| / m.
-const ROUGH_ERROR: f64 = POWER_ERROR + DISCRIMINANT_ERROR + 2.0 * U;
+/// Beyond this part of a m, the discriminant is certain enough for a rough root: it is 43 u a m in truth.
+const SURE_HIT: f64 = 64.0 * U;
+
+/// Of a rough root, times s / m.
+///
+/// As s t ≤ m, the power brings 7 u. The discriminant brings 21 u a m over the sum of s and √43/8 s, in a sum of no less than √(a m)
+/// and so in t of √(m / a): 21 u / 1.81. What is left is 4 u s / √(a m) and 3 u, with s t and s / √(a m) far below 1.
+const ROUGH_ERROR: f64 = POWER_ERROR + DISCRIMINANT_ERROR / 1.75 + 2.0 * U;
 
 /// The nearest root ahead.
 #[derive(Clone, Copy, Debug)]
@@ -87,8 +94,8 @@ pub(super) enum Nearest {
 /// power is too small beside m, as close to the surface: with s (|h| + s) > clear a m, the discriminant and h err by no more than
 /// in the other cases, and where such a power is more than 2⁻⁴⁰ m, it errs by 2⁻³⁶ of itself: little where `clear` is at most 2⁻¹⁵.
 ///
-/// A NaN or an infinity anywhere ends in doubt: none of the comparisons holds then. So does a zero direction. A negative
-/// radius, given as a negative square, is a miss or ends in doubt.
+/// A NaN or an infinity anywhere ends in a root that is infinite or NaN, in a miss or in doubt, and so does a zero direction. A
+/// negative radius, given as a negative square, is a miss or ends in doubt.
 #[inline(always)]
 pub(super) fn nearest_ahead(
     chord: &Chord<f64>,
@@ -98,18 +105,18 @@ pub(super) fn nearest_ahead(
 ) -> Nearest {
     let Chord { a, h, distance_squared, power, discriminant } = *chord;
     let is_fine = |power: f64, larger: f64| power.abs() > FINE_POWER * larger;
-    if power > SURE_SIGN * distance_squared {
+    if exceeds(power, SURE_SIGN, distance_squared) {
         // Outside: both roots lie on the side of the closest approach. If h is above zero in truth, then by less than its error,
         // h² < 16 u² a o·o, far below a power > u a o·o, and the line misses.
-        let doubtful = SURE_MISS * (a * distance_squared);
-        if h <= 0.0 || discriminant < -doubtful {
+        let is_negative = || discriminant < -SURE_MISS * (a * distance_squared);
+        if is_not_positive(h) || (is_not_positive(discriminant) && is_negative()) {
             return Nearest::Miss;
         }
         // The nearer root, (h - s) / a, without its cancellation: the product of the roots is power / a.
         let half_chord = sqrt(discriminant);
         let sum = h + half_chord;
         let t = power / sum;
-        if half_chord * t > clear * distance_squared {
+        if product_exceeds([half_chord, t], clear, distance_squared) {
             return Nearest::Root { t, half_chord };
         }
         if half_chord * sum > clear * (a * distance_squared) {
@@ -118,18 +125,19 @@ pub(super) fn nearest_ahead(
                     return Nearest::Root { t: power / sum, half_chord };
                 }
             }
-        } else if discriminant > doubtful {
+        } else if discriminant > SURE_HIT * (a * distance_squared) {
             return Nearest::Rough { t, error: ROUGH_ERROR * distance_squared / half_chord };
         }
-    } else if power < -SURE_SIGN * radius_squared {
+    } else if exceeds(-power, SURE_SIGN, radius_squared) {
         // Inside: one root lies ahead, (h + s) / a, and it cancels where the center is behind.
         let half_chord = sqrt(discriminant);
         let sum = h.abs() + half_chord;
-        let t = if h > 0.0 { sum / a } else { -power / sum };
-        if half_chord * t > clear * radius_squared {
+        let t = if is_not_positive(h) { -power / sum } else { sum / a };
+        if product_exceeds([half_chord, t], clear, radius_squared) {
             return Nearest::Root { t, half_chord: -half_chord };
         }
-        if half_chord * sum > clear * (a * radius_squared) {
+        // Before the center, the sum is clear of doubt or the half-chord is not.
+        if is_not_positive(h) && half_chord * sum > clear * (a * radius_squared) {
             if let Some(power) = fine_power() {
                 if is_fine(power, radius_squared) {
                     return Nearest::Root { t: -power / sum, half_chord: -half_chord };
@@ -155,7 +163,8 @@ pub(super) enum Both {
     Doubt,
 }
 
-/// Finds both roots of a chord in plain `f64`. What [`nearest_ahead`] says of odd arguments holds here too.
+/// Finds both roots of a chord in plain `f64`. A NaN or an infinity anywhere and a zero direction end in a miss or in doubt, and so
+/// does a negative radius.
 #[inline(always)]
 pub(super) fn both(chord: &Chord<f64>, radius_squared: f64, clear: f64) -> Both {
     let Chord { a, h, distance_squared, power, discriminant } = *chord;

@@ -212,9 +212,7 @@ fn a_range_is_half_open_and_may_begin_behind_the_first_root() {
     let line = line(numbers);
     for format in [Format::F32, Format::F64] {
         let nearest = |range: Range<f64>| {
-            carefully(line, format, &Question::Nearest(range))?
-                .nearest()
-                .map(|found| found.t)
+            carefully(line, format, &Question::Nearest(range))?.nearest().map(|found| found.t)
         };
         assert_eq!(nearest(0.0..f64::INFINITY), Some(3.0));
         assert_eq!(nearest(3.0..4.0), Some(3.0));
