@@ -5,7 +5,7 @@
 //! is neither overflow nor underflow here, and no allocation.
 
 use core::cmp::Ordering;
-use core::ops::Range;
+use core::ops::{Mul, Neg, Range};
 
 use super::product::Product;
 use super::scaling::integer_and_exponent;
@@ -21,11 +21,10 @@ const LEAST: i32 = -68 * DIGIT;
 /// Up to 2⁴⁰⁹⁶ = (2¹⁰²⁴)⁴, and two more digits for the sum of many.
 const DIGITS: usize = 68 + 64 + 2;
 
-/// A sum of products, exact: of the positive ones, less that of the negative ones.
+/// A sum of products, exact.
 pub(crate) struct Sum {
-    /// Least significant first.
-    positive: [u64; DIGITS],
-    negative: [u64; DIGITS],
+    /// Least significant first. A digit is any integer until the carries are settled, and a sum of 2⁶³ products fits.
+    digits: [i128; DIGITS],
     /// Those that may be other than zero.
     used: Range<usize>,
 }
@@ -33,109 +32,190 @@ pub(crate) struct Sum {
 /// A factor: a float, or an integer times a power of two.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Factor {
-    negative: bool,
     /// At most 54 bits.
-    integer: u64,
+    integer: i64,
     exponent: i32,
 }
 
 impl Factor {
-    pub(crate) const ONE: Self = Self { negative: false, integer: 1, exponent: 0 };
+    pub(crate) const ONE: Self = Self { integer: 1, exponent: 0 };
 
     /// `integer` 2^`exponent`, of at most 54 bits.
     pub(crate) const fn new(integer: i64, exponent: i32) -> Self {
-        Self { negative: integer < 0, integer: integer.unsigned_abs(), exponent }
+        Self { integer, exponent }
     }
 }
 
 impl From<f64> for Factor {
-    #[inline]
+    #[inline(always)]
     fn from(x: f64) -> Self {
-        let (integer, exponent) = integer_and_exponent(x);
-        Self { negative: x.is_sign_negative(), integer, exponent }
+        let (magnitude, exponent) = integer_and_exponent(x);
+        #[expect(clippy::cast_possible_wrap, reason = "53 bits")]
+        let integer = magnitude as i64;
+        Self { integer: if x < 0.0 { -integer } else { integer }, exponent }
+    }
+}
+
+/// A product of two factors, or a sum of some that fits: `integer` 2^`exponent`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Term {
+    /// At most [`Term::BITS`] bits.
+    integer: i128,
+    exponent: i32,
+}
+
+impl Mul for Factor {
+    type Output = Term;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Term {
+        let integer = i128::from(self.integer) * i128::from(other.integer);
+        Term { integer, exponent: self.exponent + other.exponent }
+    }
+}
+
+impl From<Factor> for Term {
+    #[inline(always)]
+    fn from(factor: Factor) -> Self {
+        factor * Factor::ONE
+    }
+}
+
+impl Neg for Term {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { integer: -self.integer, ..self }
+    }
+}
+
+impl Term {
+    const BITS: u32 = 124;
+    const ZERO: Self = Self { integer: 0, exponent: 0 };
+
+    pub(crate) const fn new(integer: i128, exponent: i32) -> Self {
+        Self { integer, exponent }
+    }
+
+    /// The value, rounded to 106 bits.
+    pub(crate) fn to_wide(self) -> Wide {
+        let magnitude = Wide::from_integer(self.integer.unsigned_abs(), self.exponent);
+        if self.integer < 0 { -magnitude } else { magnitude }
+    }
+
+    pub(crate) fn is_zero(self) -> bool {
+        self.integer == 0
+    }
+
+    /// The sum, if it has the bits of a term.
+    #[inline(always)]
+    fn plus(self, other: Self) -> Option<Self> {
+        let (high, low) = if self.exponent < other.exponent { (other, self) } else { (self, other) };
+        let places = (high.exponent - low.exponent).unsigned_abs();
+        let fits = |term: Self, places: u32| {
+            u128::BITS - term.integer.unsigned_abs().leading_zeros() + places < Self::BITS
+        };
+        (fits(high, places) && fits(low, 0))
+            .then(|| Self { integer: (high.integer << places) + low.integer, ..low })
+    }
+
+    /// Terms of the same sum, each added to the one before where that fits; the others are zero.
+    #[inline(always)]
+    pub(crate) fn combined<const N: usize>(terms: [Self; N]) -> [Self; N] {
+        let mut sums = [Self::ZERO; N];
+        let mut last = 0;
+        for term in terms {
+            if term.is_zero() {
+                continue;
+            }
+            if sums[last].is_zero() {
+                sums[last] = term;
+            } else if let Some(sum) = sums[last].plus(term) {
+                sums[last] = sum;
+            } else {
+                last += 1;
+                sums[last] = term;
+            }
+        }
+        sums
     }
 }
 
 impl Sum {
     pub(crate) const fn zero() -> Self {
-        let zero = [0; DIGITS];
-        Self { positive: zero, negative: zero, used: Range { start: DIGITS, end: 0 } }
+        Self { digits: [0; DIGITS], used: Range { start: DIGITS, end: 0 } }
     }
 
-    /// Adds `times` the product of four finite numbers. |`times`| is 1 or 2.
-    pub(crate) fn add(&mut self, times: i64, factors: [f64; 4]) {
-        self.add_factors(times, factors.map(Factor::from));
-    }
-
-    /// Adds `times` the product of four factors, which is to be in the range of products of four numbers. |`times`| is 1 or 2.
-    #[inline]
-    pub(crate) fn add_factors(&mut self, times: i64, factors: [Factor; 4]) {
-        let [a, b, c, d] = factors;
-        let product = Product::new(
-            u128::from(a.integer) * u128::from(b.integer),
-            u128::from(c.integer) * u128::from(d.integer),
-        );
-        if product == Product::ZERO {
+    /// Adds `times` the product of two terms, which is to be in the range of products of four numbers. |`times`| is 1 or 2.
+    pub(crate) fn add(&mut self, times: i64, [a, b]: [Term; 2]) {
+        if a.is_zero() || b.is_zero() {
             return;
         }
-        let negative = (times < 0) ^ a.negative ^ b.negative ^ c.negative ^ d.negative;
-        let unit = a.exponent
-            + b.exponent
-            + c.exponent
-            + d.exponent
-            + i32::from(times.unsigned_abs() == 2);
+        let unit = a.exponent + b.exponent + i32::from(times.unsigned_abs() == 2);
         let place = (unit - LEAST).unsigned_abs();
         let (digit, shift) = ((place / 64) as usize, place % 64);
-        // The product has at most 216 bits, and the shift moves that to five digits.
+        // The product has at most 248 bits, and the shift moves that to five digits.
+        let product = Product::new(a.integer.unsigned_abs(), b.integer.unsigned_abs());
         let parts = product.shifted(shift);
-        let target = if negative { &mut self.negative } else { &mut self.positive };
-        let mut carry = false;
-        let mut end = digit;
-        for (index, target) in target.iter_mut().enumerate().skip(digit) {
-            let part = parts.get(index - digit).copied().unwrap_or(0);
-            if index - digit >= parts.len() && !carry {
-                break;
-            }
-            let (sum, first) = target.overflowing_add(part);
-            let (sum, second) = sum.overflowing_add(carry.into());
-            (*target, carry) = (sum, first || second);
-            end = index + 1;
+        let negative = (times < 0) ^ (a.integer < 0) ^ (b.integer < 0);
+        for (digit, part) in self.digits.iter_mut().skip(digit).zip(parts) {
+            let part = i128::from(part);
+            *digit += if negative { -part } else { part };
         }
-        self.used = self.used.start.min(digit)..self.used.end.max(end);
+        self.used = self.used.start.min(digit)..self.used.end.max(digit + parts.len());
+    }
+
+    /// Adds a term, which is to be in the range of products of two numbers.
+    pub(crate) fn add_term(&mut self, term: Term) {
+        self.add(1, [term, Factor::ONE.into()]);
+    }
+
+    /// Carries, so that every digit is one of 64 bits, but for the last one, which has the sign of the sum.
+    fn settle(&mut self) {
+        // Room for what is carried from the last.
+        let Range { start, end } = self.used;
+        self.used = start..(end + 1).clamp(start, DIGITS);
+        let Some((last, digits)) = self.digits[self.used.clone()].split_last_mut() else { return };
+        let mut carry = 0;
+        for digit in digits {
+            carry += *digit;
+            *digit = carry & i128::from(u64::MAX);
+            carry >>= DIGIT;
+        }
+        *last += carry;
     }
 
     /// The sign: how the sum compares with 0.
-    pub(crate) fn sign(&self) -> Ordering {
-        // Digits of the same place, the highest first, until two differ.
-        let used = self.used.clone();
-        let digits = |digits: &[u64; DIGITS], index: usize| digits.get(index).copied();
-        used.rev()
-            .map(|index| digits(&self.positive, index).cmp(&digits(&self.negative, index)))
-            .find(|ordering| ordering.is_ne())
-            .unwrap_or(Ordering::Equal)
+    pub(crate) fn sign(&mut self) -> Ordering {
+        self.settle();
+        let used = &self.digits[self.used.clone()];
+        match used.last() {
+            Some(last) if *last < 0 => Ordering::Less,
+            _ if used.iter().all(|digit| *digit == 0) => Ordering::Equal,
+            _ => Ordering::Greater,
+        }
     }
 
     /// The value, rounded to a pair with a relative error below 2⁻⁹⁶, and its exponent.
-    pub(crate) fn value(&self) -> Wide {
-        let (larger, smaller) = match self.sign() {
-            Ordering::Equal => return Wide::ZERO,
-            Ordering::Greater => (&self.positive, &self.negative),
-            Ordering::Less => (&self.negative, &self.positive),
+    pub(crate) fn value(&mut self) -> Wide {
+        let sign = self.sign();
+        let Some(lowest) = self.used.clone().find(|place| self.digits[*place] != 0) else {
+            return Wide::ZERO;
         };
-        let mut difference = [0; DIGITS];
-        let mut borrow = false;
-        let mut top = 0;
-        for index in self.used.clone() {
-            let (digit, first) = larger[index].overflowing_sub(smaller[index]);
-            let (digit, second) = digit.overflowing_sub(borrow.into());
-            difference[index] = digit;
-            borrow = first || second;
-            if digit != 0 {
-                top = index;
+        // The digits of the magnitude: of a negative number's, the complement above the lowest one.
+        let digit = |place: usize| {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "64 bits")]
+            let digit = self.digits[place] as u64;
+            match (sign, place.cmp(&lowest)) {
+                (Ordering::Less, Ordering::Greater) => !digit,
+                (Ordering::Less, _) => digit.wrapping_neg(),
+                _ => digit,
             }
-        }
+        };
+        let top = self.used.clone().rev().find(|place| digit(*place) != 0).unwrap_or(lowest);
         // Three digits, of which at least 129 bits count: 128 of them.
-        let below = |places: usize| top.checked_sub(places).map_or(0, |index| difference[index]);
+        let below = |places: usize| top.checked_sub(places).map_or(0, digit);
         let zeros = below(0).leading_zeros();
         let leading = u128::from(below(0)) << 64 | u128::from(below(1));
         let leading = leading << zeros
@@ -147,6 +227,6 @@ impl Sum {
         )]
         let unit = LEAST + DIGIT * (top as i32 - 1) - zeros as i32;
         let value = Wide::from_integer(leading, unit);
-        if self.sign().is_lt() { -value } else { value }
+        if sign.is_lt() { -value } else { value }
     }
 }

@@ -28,7 +28,15 @@ fn power_of_two(e: i32) -> f64 {
 }
 
 /// `x` 2ᵉ, rounded once: infinite beyond the largest finite number, subnormal or zero below the smallest normal one.
-pub(crate) fn scale(mut x: f64, mut e: i32) -> f64 {
+#[inline]
+pub(crate) fn scale(x: f64, e: i32) -> f64 {
+    if (-1022..=1023).contains(&e) { x * power_of_two(e) } else { scale_far(x, e) }
+}
+
+/// The same where 2ᵉ is no normal number.
+#[cold]
+#[inline(never)]
+fn scale_far(mut x: f64, mut e: i32) -> f64 {
     // A step down leaves 53 bits to go, so that what it rounds among the subnormal numbers ends as zero anyway.
     const UP: i32 = 1023;
     const DOWN: i32 = -1022 + 53;

@@ -12,7 +12,7 @@
 
 use glam::DVec3;
 
-use crate::arithmetic::exact::{Sum, Wide};
+use crate::arithmetic::exact::{Factor, Sum, Wide};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::Pair;
 
@@ -33,7 +33,7 @@ pub(super) fn basis(from: DVec3, to: DVec3, up: DVec3) -> Option<[DVec3; 3]> {
 fn sum<const N: usize>(products: [[f64; 2]; N]) -> Wide {
     let mut sum = Sum::zero();
     for [a, b] in products {
-        sum.add(1, [a, b, 1.0, 1.0]);
+        sum.add_term(Factor::from(a) * Factor::from(b));
     }
     sum.value()
 }

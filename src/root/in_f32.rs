@@ -5,11 +5,12 @@ use core::ops::Range;
 use glam::Vec3;
 
 use super::chord::{Chord, Derivation};
-use super::crossing::{Found, Line, Setting};
+use super::crossing::{Found, Line, Setting, Side};
+use super::format::Format;
 use super::halves;
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully_f32, nearest_carefully_f32};
+use super::{both_carefully_f32, integers, nearest_carefully_f32};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::pair::U;
@@ -68,6 +69,16 @@ impl Setting {
     }
 }
 
+/// Rounds a root of the plain step that is close to the middle of two `f32`.
+#[cold]
+#[inline(never)]
+#[expect(clippy::cast_possible_truncation, reason = "it is rounded already")]
+fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
+    let side = if half_chord > 0.0 { Side::Near } else { Side::Far };
+    let compare = |midpoint| integers::compare_root(line, side, midpoint);
+    Format::F32.round(t.into(), plain::ROOT_ERROR / CLEAR, compare).map(|t| t as f32)
+}
+
 /// The nearest hit where the plain step is in doubt: once more, with a finer power close to the surface, and with the bound of
 /// the case from afar.
 #[cold]
@@ -87,16 +98,22 @@ fn nearest_again(
     // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
     let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
     match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
-        Nearest::Root { t, .. } => {
-            let rounded = t as f32;
-            if rounds_safely::<MARGIN>(t) && is_certain(rounded) {
-                return (rounded < end).then(|| {
-                    if is_far {
-                        setting.found_from_afar(&chord, rounded)
-                    } else {
-                        setting.found(t, rounded)
-                    }
-                });
+        Nearest::Root { t, half_chord } => {
+            let rounded = if rounds_safely::<MARGIN>(t) {
+                Some(t as f32)
+            } else {
+                round_carefully(line, t, half_chord)
+            };
+            if let Some(rounded) = rounded {
+                if is_certain(rounded) {
+                    return (rounded < end).then(|| {
+                        if is_far {
+                            setting.found_from_afar(&chord, rounded)
+                        } else {
+                            setting.found(t, rounded)
+                        }
+                    });
+                }
             }
         }
         Nearest::Rough { t, error } => {

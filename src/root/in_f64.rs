@@ -55,6 +55,9 @@ fn nearest_again(line: &Line, range: Range<f64>) -> Option<Found> {
     from_the_surface(*line, &range).unwrap_or_else(|| nearest_carefully_f64(line, range))
 }
 
+/// 2⁻⁹⁰⁰.
+const LEAST_ROOT: f64 = f64::from_bits((1023 - 900) << 52);
+
 /// The nearest hit of a line that starts close to the surface, or that there is none; `None` where that is not certain.
 #[inline(always)]
 #[expect(clippy::option_option, reason = "a certain miss is an answer, too")]
@@ -74,7 +77,8 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
         return None;
     }
     let (is_outside, is_behind) = (power.0.hi > 0.0, chord.h < 0.0);
-    if is_outside && is_behind {
+    if is_behind && power.0.hi >= 0.0 {
+        // Both roots are behind, or the far one is 0.
         return Some(None);
     }
     if !is_outside && !is_behind {
@@ -88,6 +92,10 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
     }
     let (root, relative_error) =
         surface::small_root(o, line.direction.into(), &chord, half_chord, power);
+    // Below these, a pair is none.
+    if root.hi.abs() < LEAST_ROOT {
+        return None;
+    }
     let side = if is_outside { Side::Near } else { Side::Far };
     let t = Format::F64.round(root, relative_error, |midpoint| {
         integers::compare_root(&{ line }, side, midpoint)

@@ -17,8 +17,9 @@ use sums::Sums;
 
 use super::crossing::{Crossings, Found, Line, Side, Verdict};
 use super::format::{Format, Midpoint};
+use super::pairs;
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{Pair, V};
+use crate::arithmetic::pair::{Pair, U, V};
 use crate::arithmetic::scaling::{exponent, scale};
 use crate::arithmetic::wide::Wide;
 
@@ -27,6 +28,9 @@ mod tests;
 
 /// Of a root, in itself: of a quotient of numbers, or of their sums without cancellation, each known to 2⁻⁹⁶.
 const ROOT_ERROR: f64 = 4096.0 * V;
+
+/// Where a pair loses nothing.
+const MIDDLE: i32 = 900;
 
 /// A line and a sphere in integers: every number that they give is exact but for its rounding to at least 96 bits.
 pub(super) enum Exact {
@@ -96,12 +100,12 @@ impl Exact {
             // Within the chord.
             return if side == Side::Near { Ordering::Less } else { Ordering::Greater };
         }
-        let ahead = match self {
+        let ahead = plainly_ahead(line, number).unwrap_or_else(|| match self {
             Self::Narrow(narrow) => {
                 narrow.ahead_of(number).unwrap_or_else(|| Sums::new(line).ahead_of(number))
             }
             Self::Wide(sums) => sums.ahead_of(number),
-        };
+        });
         match (side, quadratic) {
             // Outside the chord, the number lies before both roots or behind both.
             (_, Ordering::Greater) => ahead,
@@ -112,6 +116,22 @@ impl Exact {
             (Side::Far, _) => Ordering::Greater,
         }
     }
+}
+
+/// The sign of what is from a number to the closest approach, h - a m, where that is certain in plain `f64`.
+fn plainly_ahead(line: &Line, number: Midpoint) -> Option<Ordering> {
+    /// Of the products' absolute values: o and m are rounded once, the products twice, and sums three times.
+    const ERROR: f64 = 8.0 * U;
+    /// Above what underflows.
+    const LEAST: f64 = f64::MIN_POSITIVE / U;
+    #[expect(clippy::cast_precision_loss, reason = "it is rounded once")]
+    let m = scale(number.integer as f64, number.exponent);
+    let (o, d) = (line.center - line.origin, line.direction);
+    let (h, am) = (d.dot(o), d.dot(d * m));
+    let (ahead, size) = (h - am, d.abs().dot(o.abs()) + am.abs());
+    let is_certain =
+        m.is_normal() && ahead.abs() > ERROR * size && ahead.abs() > LEAST && size.is_finite();
+    is_certain.then(|| if ahead > 0.0 { Ordering::Greater } else { Ordering::Less })
 }
 
 /// How the root on that side compares with a number midway between two floats.
@@ -155,6 +175,11 @@ impl InIntegers<'_> {
         if half_chord.is_zero() {
             return h / a;
         }
+        // Next to a tangent, nothing cancels.
+        if half_chord.exponent() < h.exponent() - 2 {
+            let along = if side == Side::Near { -half_chord } else { half_chord };
+            return (h + along) / a;
+        }
         // The root that does not cancel, and the other one from the product of the roots, power / a.
         let sum = if h.is_negative() { h + -half_chord } else { h + half_chord };
         if (side == Side::Near) == h.is_negative() { sum / a } else { self.exact.power() / sum }
@@ -165,8 +190,6 @@ impl Crossings for InIntegers<'_> {
     type Root = Estimate;
 
     fn root(&self, side: Side) -> Option<(f64, Estimate)> {
-        /// Where a pair loses nothing.
-        const MIDDLE: i32 = 900;
         let exact = self.estimate(side);
         let compare = |number| self.exact.compare_root(self.line, side, number);
         let t = if exact.is_zero() {
@@ -190,6 +213,13 @@ impl Crossings for InIntegers<'_> {
         if radius == 0.0 {
             // There is no normal: back along the ray.
             return Some(Found { t, point: center, normal: -DVec3::from(d).normalize() });
+        }
+        let unscaled = root.exponent - direction_exponent;
+        if unscaled.abs() < MIDDLE {
+            let t_pair = Pair { hi: scale(root.t.hi, unscaled), lo: scale(root.t.lo, unscaled) };
+            if let Some(found) = pairs::hit_at(self.line, self.format, t, t_pair) {
+                return Some(found);
+            }
         }
         // In units of the radius and of the direction's length, which bound half the chord and the moment.
         let length_exponent = exponent(radius);

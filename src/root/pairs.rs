@@ -33,11 +33,9 @@ use super::crossing::{Crossings, Found, Line, Side, Verdict};
 use super::format::{Format, Midpoint};
 use super::integers;
 use super::scaled::Scaled;
-use super::surface::{POWER_ERROR, power_in_pairs};
+use super::surface::{self, power_in_pairs};
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{
-    Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum,
-};
+use crate::arithmetic::pair::{Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum};
 use crate::arithmetic::scaling::scale;
 use crate::float::sqrt;
 
@@ -176,40 +174,42 @@ impl InPairs<'_> {
     /// How the root on that side compares with a number midway between its neighbors.
     #[inline(always)]
     fn compare(&self, side: Side, number: Midpoint) -> Ordering {
-        self.sign_at(number).map_or_else(
-            || integers::compare_root(self.line, side, number),
-            |is_outside| {
-                if is_outside == (side == Side::Near) { Ordering::Greater } else { Ordering::Less }
-            },
-        )
-    }
-
-    /// Whether the line is outside the sphere at a number, if that is certain.
-    #[inline(always)]
-    fn sign_at(&self, number: Midpoint) -> Option<bool> {
-        let Scaled { d, radius, .. } = self.scaled;
-        if self.scaled.is_scaled() {
-            return None;
+        let certain = if self.scaled.is_scaled() { None } else { quadratic_at(self.line, number) };
+        match (certain, side) {
+            (None, _) => integers::compare_root(self.line, side, number),
+            // So close to a root of this chord, outside is before the near one and behind the far one.
+            (Some(quadratic), Side::Near) => quadratic,
+            (Some(quadratic), Side::Far) => quadratic.reverse(),
         }
-        // The number is odd: an even one, of 53 bits, and 1.
-        #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
-        let even = scale((number.integer - 1) as f64, number.exponent);
-        let one = scale(1.0, number.exponent);
-        let exact = self.line.o().zip(d, |o, d| {
-            let step = two_product(even, d);
-            let high = two_difference(step.hi, o.hi);
-            let low = two_difference(step.lo, o.lo);
-            let lower = two_sum(low.hi, one * d);
-            let lowest = two_sum(lower.hi, high.lo);
-            let sum = two_sum(high.hi, lowest.hi);
-            (sum, low.lo + lower.lo + lowest.lo)
-        });
-        let rest = exact.x.1.abs() + exact.y.1.abs() + exact.z.1.abs();
-        let w = Triple { x: exact.x.0, y: exact.y.0, z: exact.z.0 };
-        let (power, larger) = power_in_pairs(w, radius);
-        let error = POWER_ERROR * larger + 3.0 * sqrt(larger) * rest;
-        (power.hi.abs() > error).then_some(power.hi > 0.0)
     }
+}
+
+/// The sign of the quadratic at a number midway between two floats, if that is certain.
+#[inline(always)]
+fn quadratic_at(line: &Line, number: Midpoint) -> Option<Ordering> {
+    // The number is odd: an even one, of 53 bits, and 1.
+    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
+    let even = scale((number.integer - 1) as f64, number.exponent);
+    let one = scale(1.0, number.exponent);
+    let exact = line.o().zip(line.direction.into(), |o, d| {
+        /// 2⁻⁹⁰⁰: far enough above the subnormal numbers for products to be pairs.
+        const LEAST: f64 = f64::from_bits((1023 - 900) << 52);
+        let step = two_product(even, d);
+        let last = one * d;
+        let high = two_difference(step.hi, o.hi);
+        let low = two_difference(step.lo, o.lo);
+        let lower = two_sum(low.hi, last);
+        let lowest = two_sum(lower.hi, high.lo);
+        let is_whole = d == 0.0 || last.abs() > LEAST;
+        let dropped = low.lo.abs() + lower.lo.abs() + lowest.lo.abs();
+        (two_sum(high.hi, lowest.hi), if is_whole { dropped } else { f64::INFINITY })
+    });
+    let dropped = exact.x.1 + exact.y.1 + exact.z.1;
+    let w = Triple { x: exact.x.0, y: exact.y.0, z: exact.z.0 };
+    let (power, error) = surface::power(w, line.radius);
+    // 0 only where all is exact.
+    let error = error + 3.0 * (w.x.hi.abs() + w.y.hi.abs() + w.z.hi.abs()) * dropped;
+    if power.hi.abs() > error || error == 0.0 { power.hi.partial_cmp(&0.0) } else { None }
 }
 
 impl Crossings for InPairs<'_> {
@@ -219,28 +219,40 @@ impl Crossings for InPairs<'_> {
     fn root(&self, side: Side) -> Option<(f64, Corrected)> {
         let corrected = self.corrected(side)?;
         let relative_error = corrected.error / corrected.t.hi.abs() + PAIR_ERROR;
-        let unscaled = self.scaled.unscaled_root(corrected.t)?;
-        let t =
-            Format::F64.round(unscaled, relative_error, |midpoint| self.compare(side, midpoint))?;
-        Some((t, corrected))
+        let exponent = self.scaled.exponent();
+        let t = Format::F64.round(corrected.t, relative_error, |Midpoint { integer, exponent: unit }| {
+            self.compare(side, Midpoint { integer, exponent: unit + exponent })
+        })?;
+        Some((self.scaled.unscaled_root(t)?, corrected))
     }
 
     #[inline(always)]
     fn hit(&self, _: Side, t: f64, root: Corrected) -> Option<Found> {
-        let Corrected { t: unrounded, error, w, correction } = root;
-        let Scaled { d, radius, length_exponent, .. } = self.scaled;
-        let length = sqrt(self.a);
-        let tolerance = Format::F64.point_tolerance();
-        let allowed = (tolerance.of_radius * radius)
-            .min(tolerance.of_distance * (unrounded.hi.abs() * length));
-        let offset_error = OFFSET_ERROR * radius + OFFSET_REACH_ERROR * self.size;
-        if error * length + offset_error > 0.5 * allowed {
-            return None;
-        }
-        // p + t d is c + w.
+        let Scaled { radius, .. } = self.scaled;
+        let residual = OFFSET_ERROR * radius + OFFSET_REACH_ERROR * self.size;
+        let offset_error = root.error * sqrt(self.a) + residual;
+        let is_certain = offset_error <= 0.5 * root.allowed(&self.scaled, self.a, Format::F64);
+        is_certain.then(|| root.hit(self.line, &self.scaled, t))
+    }
+}
+
+impl Corrected {
+    /// The error that is allowed for a point.
+    #[inline(always)]
+    fn allowed(&self, scaled: &Scaled, a: f64, format: Format) -> f64 {
+        let tolerance = format.point_tolerance();
+        let travelled = self.t.hi.abs() * sqrt(a);
+        (tolerance.of_radius * scaled.radius).min(tolerance.of_distance * travelled)
+    }
+
+    /// The hit: p + t d is c + w.
+    #[inline(always)]
+    fn hit(&self, line: &Line, scaled: &Scaled, t: f64) -> Found {
+        let Self { w, correction, .. } = *self;
+        let Scaled { d, radius, length_exponent, .. } = *scaled;
         let offset = w.zip(d, |w, d| without_dust(Pair { hi: w.hi, lo: w.lo + d * correction }));
-        let center = Triple::from(self.line.center);
-        let point = if self.scaled.is_scaled() {
+        let center = Triple::from(line.center);
+        let point = if scaled.is_scaled() {
             center.zip(offset, |center, offset| {
                 let sum = two_sum(center, scale(offset.hi, length_exponent));
                 // Not where it overflows.
@@ -254,8 +266,27 @@ impl Crossings for InPairs<'_> {
             })
         };
         let normal = offset.map(|offset| (offset.hi + offset.lo) / radius);
-        Some(Found { t, point: point.into(), normal: normal.into() })
+        Found { t, point: point.into(), normal: normal.into() }
     }
+}
+
+/// The hit at a root that is known to a part of itself of 2⁻⁹⁴, if its point is certain; `t` is that root rounded.
+///
+/// The products with its low part are rounded, too, which is v |o|.
+pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Pair) -> Option<Found> {
+    /// 2⁻⁹⁰ of the way, and of |o|.
+    const ERROR: f64 = 65536.0 * V;
+    let scaled = Scaled::new(line)?;
+    if scaled.is_scaled() {
+        return None;
+    }
+    let Scaled { o, d, radius, .. } = scaled;
+    let o = o.map(|o| o.hi);
+    let (a, travelled) = (d.dot(d), root.hi * root.hi * d.dot(d));
+    let w = offset(&scaled, root.hi);
+    let root = Corrected { t: root, error: 0.0, w, correction: root.lo };
+    let reach = sqrt(o.dot(o)) + radius + sqrt(travelled);
+    (ERROR * reach <= 0.5 * root.allowed(&scaled, a, format)).then(|| root.hit(line, &scaled, t))
 }
 
 /// A coordinate of a vector of about unit length, zero where it is so small that the low part of a product underflowed on the way:

@@ -11,7 +11,7 @@ pub(super) struct Scaled {
     pub(super) d: Triple<f64>,
     pub(super) radius: f64,
     pub(super) length_exponent: i32,
-    direction_exponent: i32,
+    pub(super) direction_exponent: i32,
 }
 
 impl Scaled {
@@ -50,17 +50,15 @@ impl Scaled {
         self.length_exponent - self.direction_exponent
     }
 
-    /// A root in units of the caller's, if that is exact.
+    /// A rounded root in the caller's units, infinite beyond the largest number; `None` below the smallest normal one, where a root
+    /// has fewer digits.
     #[inline(always)]
-    pub(super) fn unscaled_root(&self, t: Pair) -> Option<Pair> {
-        /// 2⁻⁹⁰⁰: far enough above the subnormal numbers for the low part to be whole.
-        const LEAST: f64 = f64::from_bits((1023 - 900) << 52);
-        let e = self.exponent();
-        if e == 0 {
+    pub(super) fn unscaled_root(&self, t: f64) -> Option<f64> {
+        if !self.is_scaled() {
             return Some(t);
         }
-        let unscaled = Pair { hi: scale(t.hi, e), lo: scale(t.lo, e) };
-        (unscaled.hi.is_finite() && unscaled.hi.abs() > LEAST).then_some(unscaled)
+        let unscaled = scale(t, self.exponent());
+        (unscaled.abs() >= f64::MIN_POSITIVE).then_some(unscaled)
     }
 
     /// Whether the units are not the caller's.

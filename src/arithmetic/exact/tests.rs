@@ -11,6 +11,11 @@ fn number(wide: Wide) -> Dyadic {
 }
 
 /// A sum of products, and the same by the oracle.
+/// Adds `times` the product of four factors.
+fn add(sum: &mut Sum, times: i64, [a, b, c, d]: [Factor; 4]) {
+    sum.add(times, [a * b, c * d]);
+}
+
 #[derive(Default)]
 struct Both {
     terms: Vec<(i64, [f64; 4])>,
@@ -20,7 +25,7 @@ impl Both {
     fn sum(&self) -> Sum {
         let mut sum = Sum::zero();
         for (times, factors) in &self.terms {
-            sum.add(*times, *factors);
+            add(&mut sum, *times, factors.map(Factor::from));
         }
         sum
     }
@@ -136,7 +141,7 @@ fn sums_of_many_are_longer_than_their_terms() {
     for times in [2, -2] {
         let mut sum = Sum::zero();
         for _ in 0..20_000 {
-            sum.add(times, factors);
+            add(&mut sum, times, factors.map(Factor::from));
         }
         let exact = Both { terms: vec![(20_000 * times, factors)] }.exact();
         let value = sum.value();
@@ -185,7 +190,7 @@ fn factors_of_54_bits_are_exact() {
         for _ in 0..=random.below(8) {
             let times = random_times(&mut random);
             let factors = [0; 4].map(|_| random_factor(&mut random));
-            sum.add_factors(times, [0, 1, 2, 3].map(|index: usize| factors[index].0));
+            add(&mut sum, times, [0, 1, 2, 3].map(|index: usize| factors[index].0));
             let product =
                 factors.iter().fold(Dyadic::new(times, 0), |product, (_, x)| &product * x);
             exact = &exact + &product;
@@ -204,7 +209,7 @@ fn the_largest_factors_reach_the_fifth_digit() {
         for times in [1, -1, 2, -2] {
             let mut sum = Sum::zero();
             let last = Factor::new((1 << 54) - 1, exponent);
-            sum.add_factors(times, [ones, ones, ones, last]);
+            add(&mut sum, times, [ones, ones, ones, last]);
             let integer = Dyadic::new((1_i64 << 54) - 1, 0);
             let fourth = &(&integer * &integer) * &(&integer * &integer);
             let exact = (&fourth * &Dyadic::new(times, 0)).scaled(exponent.into());
@@ -216,7 +221,7 @@ fn the_largest_factors_reach_the_fifth_digit() {
             let pair = rounded.scaled(-unit);
             let mut rest = exact.clone();
             for part in [pair.hi, pair.lo] {
-                sum.add(-1, [part, 2_f64.powi(unit), 1.0, 1.0]);
+                add(&mut sum, -1, [part, 2_f64.powi(unit), 1.0, 1.0].map(Factor::from));
                 rest = &rest - &Dyadic::exactly(part).scaled(unit.into());
             }
             assert_eq!(sum.sign(), rest.sign());
@@ -229,12 +234,12 @@ fn the_largest_factors_reach_the_fifth_digit() {
 #[test]
 fn one_is_one() {
     let mut sum = Sum::zero();
-    sum.add_factors(1, [Factor::ONE; 4]);
+    add(&mut sum, 1, [Factor::ONE; 4]);
     assert_eq!(number(sum.value()), Dyadic::new(1, 0));
-    sum.add_factors(-1, [Factor::ONE; 4]);
+    add(&mut sum, -1, [Factor::ONE; 4]);
     assert!(sum.value().is_zero());
     // Nothing is added, not even of a product of a zero.
-    sum.add_factors(1, [Factor::ONE, Factor::new(0, 5), Factor::ONE, Factor::ONE]);
+    add(&mut sum, 1, [Factor::ONE, Factor::new(0, 5), Factor::ONE, Factor::ONE]);
     assert!(sum.used.is_empty() || sum.sign().is_eq());
 }
 
@@ -246,10 +251,10 @@ fn a_carry_runs_through_all_digits() {
             let mut sum = Sum::zero();
             for block in 0..15 {
                 let ones = Factor::new((1 << 54) - 1, first + 54 * block);
-                sum.add_factors(times, [ones, Factor::ONE, Factor::ONE, Factor::ONE]);
+                add(&mut sum, times, [ones, Factor::ONE, Factor::ONE, Factor::ONE]);
             }
             let one = Factor::new(1, first);
-            sum.add_factors(times, [one, Factor::ONE, Factor::ONE, Factor::ONE]);
+            add(&mut sum, times, [one, Factor::ONE, Factor::ONE, Factor::ONE]);
             assert_eq!(number(sum.value()), Dyadic::new(times, i64::from(first) + 54 * 15));
         }
     }

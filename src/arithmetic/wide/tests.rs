@@ -1,5 +1,5 @@
 use super::*;
-use crate::arithmetic::exact::Sum;
+use crate::arithmetic::exact::{Factor, Sum};
 use crate::arithmetic::pair::{QUOTIENT_ERROR, ROOT_ERROR, SUM_ERROR};
 use crate::testing::{Dyadic, Random, exactly, nearest, part_of_bound};
 
@@ -41,8 +41,9 @@ fn integers_keep_106_bits() {
 fn random_wide(random: &mut Random) -> Wide {
     let mut sum = Sum::zero();
     let factors = [0; 4].map(|_| random.any_float());
-    sum.add(1, factors);
-    sum.add(1, [factors[0], factors[1], factors[2], factors[3] * f64::EPSILON]);
+    let [a, b, c, d] = factors.map(Factor::from);
+    sum.add(1, [a * b, c * d]);
+    sum.add(1, [a * b, c * Factor::from(factors[3] * f64::EPSILON)]);
     sum.value()
 }
 

@@ -2,6 +2,7 @@
 
 use core::cmp::Ordering;
 
+use crate::arithmetic::exact::Term;
 use crate::arithmetic::product::{Product, sign_of_sum};
 use crate::arithmetic::scaling::integer_and_exponent;
 use crate::arithmetic::wide::Wide;
@@ -74,11 +75,6 @@ fn dot(a: [i64; 3], b: [i64; 3]) -> i128 {
     product(a[0], b[0]) + product(a[1], b[1]) + product(a[2], b[2])
 }
 
-fn wide(integer: i128, unit: i32) -> Wide {
-    let magnitude = Wide::from_integer(integer.unsigned_abs(), unit);
-    if integer < 0 { -magnitude } else { magnitude }
-}
-
 impl Narrow {
     pub(super) fn new(line: &Line) -> Option<Self> {
         let (d, direction_exponent) = integers(line.direction.to_array())?;
@@ -92,18 +88,18 @@ impl Narrow {
 
     /// d·d.
     pub(super) fn a(&self) -> Wide {
-        wide(dot(self.d, self.d), 2 * self.direction_exponent)
+        Term::new(dot(self.d, self.d), 2 * self.direction_exponent).to_wide()
     }
 
     /// d·o.
     pub(super) fn h(&self) -> Wide {
-        wide(dot(self.o, self.d), self.length_exponent + self.direction_exponent)
+        Term::new(dot(self.o, self.d), self.length_exponent + self.direction_exponent).to_wide()
     }
 
     /// o·o - r².
     pub(super) fn power(&self) -> Wide {
         let power = dot(self.o, self.o) - product(self.radius, self.radius);
-        wide(power, 2 * self.length_exponent)
+        Term::new(power, 2 * self.length_exponent).to_wide()
     }
 
     fn integer_moment(&self) -> [i128; 3] {
@@ -114,7 +110,7 @@ impl Narrow {
     /// o × d.
     pub(super) fn moment(&self) -> [Wide; 3] {
         let unit = self.length_exponent + self.direction_exponent;
-        self.integer_moment().map(|coordinate| wide(coordinate, unit))
+        self.integer_moment().map(|coordinate| Term::new(coordinate, unit).to_wide())
     }
 
     /// r² (d·d) - |o × d|².

@@ -63,3 +63,4 @@ impl Crossing {
         Found { t, point: point.into(), normal: normal.into() }
     }
 }
+

@@ -2,7 +2,7 @@
 
 use core::cmp::Ordering;
 
-use crate::arithmetic::exact::{Factor, Sum};
+use crate::arithmetic::exact::{Factor, Sum, Term};
 use crate::arithmetic::pair::Pair;
 use crate::arithmetic::wide::Wide;
 use crate::root::crossing::Line;
@@ -11,9 +11,40 @@ use crate::root::format::Midpoint;
 /// A line and a sphere of any finite coordinates.
 pub(in crate::root) struct Sums {
     /// c - p: each coordinate the exact sum of two numbers.
-    o: [[f64; 2]; 3],
-    d: [f64; 3],
-    radius: f64,
+    o: [[Factor; 2]; 3],
+    d: [Factor; 3],
+    radius: Factor,
+}
+
+/// The sum of a number's terms, squared, `times` 1 or -1.
+fn add_square<const N: usize>(sum: &mut Sum, times: i64, terms: [Term; N]) {
+    for (index, term) in terms.into_iter().enumerate() {
+        sum.add(times, [term, term]);
+        for other in terms.into_iter().skip(index + 1) {
+            sum.add(2 * times, [term, other]);
+        }
+    }
+}
+
+/// The value of a sum of combined terms.
+#[inline(always)]
+fn value<const N: usize>(terms: [Term; N]) -> Wide {
+    /// How many binary places the second term is smaller, so that the first does not cancel.
+    const SMALLER: i32 = 8;
+    if terms[1].is_zero() {
+        return terms[0].to_wide();
+    }
+    if terms[2].is_zero() {
+        let (first, second) = (terms[0].to_wide(), terms[1].to_wide());
+        if first.exponent() > second.exponent() + SMALLER {
+            return first + second;
+        }
+    }
+    let mut sum = Sum::zero();
+    for term in terms {
+        sum.add_term(term);
+    }
+    sum.value()
 }
 
 impl Sums {
@@ -26,91 +57,78 @@ impl Sums {
             // Where a difference overflows, or a step on the way to it, its two terms are an exact sum still.
             *o = if hi.is_finite() && lo.is_finite() { [hi, lo] } else { [c, -p] };
         }
-        Self { o, d: line.direction.to_array(), radius: line.radius }
+        Self {
+            o: o.map(|o| o.map(Factor::from)),
+            d: line.direction.to_array().map(Factor::from),
+            radius: Factor::from(line.radius),
+        }
+    }
+
+    /// The terms of d·d.
+    fn a_terms(&self) -> [Term; 3] {
+        Term::combined(self.d.map(|d| d * d))
     }
 
     /// d·d.
     pub(super) fn a(&self) -> Wide {
-        let mut sum = Sum::zero();
-        for d in self.d {
-            sum.add(1, [d, d, 1.0, 1.0]);
-        }
-        sum.value()
+        value(self.a_terms())
+    }
+
+    /// The terms of d·o.
+    fn h_terms(&self) -> [Term; 6] {
+        let [x, y, z] = [0, 1, 2].map(|axis| self.o[axis].map(|o| o * self.d[axis]));
+        Term::combined([x[0], y[0], z[0], x[1], y[1], z[1]])
     }
 
     /// d·o.
     pub(super) fn h(&self) -> Wide {
-        let mut sum = Sum::zero();
-        for (o, d) in self.o.into_iter().zip(self.d) {
-            for o in o {
-                sum.add(1, [o, d, 1.0, 1.0]);
-            }
-        }
-        sum.value()
+        value(self.h_terms())
     }
 
     /// o·o - r².
     pub(super) fn power(&self) -> Wide {
         let mut sum = Sum::zero();
-        for [hi, lo] in self.o {
-            sum.add(1, [hi, hi, 1.0, 1.0]);
-            sum.add(2, [hi, lo, 1.0, 1.0]);
-            sum.add(1, [lo, lo, 1.0, 1.0]);
+        for o in self.o {
+            add_square(&mut sum, 1, o.map(Term::from));
         }
-        sum.add(-1, [self.radius, self.radius, 1.0, 1.0]);
+        sum.add_term(-(self.radius * self.radius));
         sum.value()
     }
 
-    /// o × d: each coordinate the sum of four products.
-    fn moment_terms(&self) -> [[[f64; 2]; 4]; 3] {
+    /// o × d: each coordinate a sum of terms.
+    fn moment_terms(&self) -> [[Term; 4]; 3] {
         let Self { o, d, .. } = *self;
-        [(1, 2), (2, 0), (0, 1)]
-            .map(|(j, k)| [[o[j][0], d[k]], [o[j][1], d[k]], [-o[k][0], d[j]], [-o[k][1], d[j]]])
+        [(1, 2), (2, 0), (0, 1)].map(|(j, k)| {
+            let [[j_hi, j_lo], [k_hi, k_lo]] = [o[j].map(|o| o * d[k]), o[k].map(|o| -(o * d[j]))];
+            Term::combined([j_hi, k_hi, j_lo, k_lo])
+        })
     }
 
     /// o × d.
     pub(super) fn moment(&self) -> [Wide; 3] {
-        self.moment_terms().map(|coordinate| {
-            let mut sum = Sum::zero();
-            for [o, d] in coordinate {
-                sum.add(1, [o, d, 1.0, 1.0]);
-            }
-            sum.value()
-        })
+        self.moment_terms().map(value)
     }
 
     /// r² (d·d) - |o × d|².
     pub(super) fn discriminant(&self) -> Wide {
         let mut sum = Sum::zero();
-        for d in self.d {
-            sum.add(1, [self.radius, self.radius, d, d]);
+        for term in self.a_terms() {
+            sum.add(1, [self.radius * self.radius, term]);
         }
         for coordinate in self.moment_terms() {
-            for (i, [o, d]) in coordinate.into_iter().enumerate() {
-                sum.add(-1, [o, d, o, d]);
-                for [other_o, other_d] in coordinate.into_iter().skip(i + 1) {
-                    sum.add(-2, [o, d, other_o, other_d]);
-                }
-            }
+            add_square(&mut sum, -1, coordinate);
         }
         sum.value()
     }
 
     /// The sign of the quadratic at a number, |m d - o|² - r².
     pub(super) fn quadratic_at(&self, number: Midpoint) -> Ordering {
-        const ONE: Factor = Factor::ONE;
         let m = Factor::new(number.integer, number.exponent);
         let mut sum = Sum::zero();
-        sum.add(-1, [self.radius, self.radius, 1.0, 1.0]);
-        for (o, d) in self.o.into_iter().zip(self.d) {
-            let [hi, lo] = o.map(Factor::from);
-            let d = Factor::from(d);
-            sum.add_factors(1, [m, d, m, d]);
-            sum.add_factors(-2, [m, d, hi, ONE]);
-            sum.add_factors(-2, [m, d, lo, ONE]);
-            sum.add_factors(1, [hi, hi, ONE, ONE]);
-            sum.add_factors(2, [hi, lo, ONE, ONE]);
-            sum.add_factors(1, [lo, lo, ONE, ONE]);
+        sum.add_term(-(self.radius * self.radius));
+        for ([hi, lo], d) in self.o.into_iter().zip(self.d) {
+            let offset = [m * d, -Term::from(hi), -Term::from(lo)];
+            add_square(&mut sum, 1, Term::combined(offset));
         }
         sum.sign()
     }
@@ -119,12 +137,11 @@ impl Sums {
     pub(super) fn ahead_of(&self, number: Midpoint) -> Ordering {
         let m = Factor::new(number.integer, number.exponent);
         let mut sum = Sum::zero();
-        for (o, d) in self.o.into_iter().zip(self.d) {
-            for o in o {
-                sum.add(1, [o, d, 1.0, 1.0]);
-            }
-            let d = Factor::from(d);
-            sum.add_factors(-1, [d, d, m, Factor::ONE]);
+        for term in self.h_terms() {
+            sum.add_term(term);
+        }
+        for term in self.a_terms() {
+            sum.add(-1, [term, m.into()]);
         }
         sum.sign()
     }

@@ -315,3 +315,46 @@ fn roots_in_integers_are_the_nearest_f32_too() {
         check(random_numbers(&mut random));
     }
 }
+
+#[test]
+fn zzz_time() {
+    use std::time::Instant;
+    #[path = "/work/main/tests/support/families.rs"]
+    mod families;
+    use families::{FAMILIES, Rng};
+    use core::hint::black_box;
+    for name in ["near tangent", "exact tangent", "near tie"] {
+    for format in [Format::F32, Format::F64] {
+        let family = FAMILIES.iter().find(|f| f.name == name).unwrap();
+        let mut rng = Rng::new(3);
+        let lines: Vec<Line> = (0..20000).filter_map(|_| {
+            let line = if format == Format::F64 { let (ray, sphere): (crate::Ray<DVec3>, crate::Sphere<DVec3>) = (family.f64)(&mut rng); Line::new(&sphere, &ray) } else
+            { let (ray, sphere): (crate::Ray, crate::Sphere) = (family.f32)(&mut rng); Line::new(&sphere, &ray) };
+            let wide = name == "exact tangent" || Exact::new(&line).is_wide();
+            let hit = !Exact::new(&line).discriminant().is_negative();
+            (line.is_valid() && wide && hit).then_some(line)
+        }).take(300).collect();
+        let time = |what: &str, f: &dyn Fn(&Line)| {
+            let mut best = f64::MAX;
+            for _ in 0..300 {
+                let start = Instant::now();
+                for line in &lines { f(black_box(line)); }
+                best = best.min(start.elapsed().as_secs_f64());
+            }
+            println!("{name} {format:?} {what:20} {:.1} ns", best * 1e9 / lines.len() as f64);
+        };
+        time("new", &|line| { black_box(Exact::new(line)); });
+        time("narrow new", &|line| { black_box(Narrow::new(line)); });
+        let exact: Vec<Exact> = lines.iter().map(Exact::new).collect();
+        let n = std::cell::Cell::new(0);
+        let next = || { let i = n.get(); n.set((i + 1) % lines.len()); i };
+        time("discriminant", &|_| { black_box(exact[next()].discriminant()); });
+        time("a", &|_| { black_box(exact[next()].a()); });
+        time("h", &|_| { black_box(exact[next()].h()); });
+        time("power", &|_| { black_box(exact[next()].power()); });
+        time("moment", &|_| { black_box(exact[next()].moment()); });
+        time("chord", &|line| { let _ = black_box(chord(line, Exact::new(line), format)); });
+        time("chord+root", &|line| { if let Verdict::Hit(c) = chord(line, Exact::new(line), format) { black_box(c.root(Side::Near)); } });
+        time("chord+root+hit", &|line| { if let Verdict::Hit(c) = chord(line, Exact::new(line), format) { if let Some((t, r)) = c.root(Side::Near) { black_box(c.hit(Side::Near, t, r)); } } });
+    }}
+}
