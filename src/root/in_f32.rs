@@ -5,17 +5,16 @@ use core::ops::Range;
 use glam::Vec3;
 
 use super::chord::{Chord, Derivation};
-use super::crossing::{Found, Line, Setting, Side};
+use super::crossing::{Found, Line, Setting, Side, Verdict};
 use super::format::Format;
 use super::halves;
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
 use super::{both_carefully_f32, integers, nearest_carefully_f32};
-use crate::algebraic::Quadratic;
 use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::pair::U;
 use crate::arithmetic::rounding::rounds_safely;
-use crate::float::sqrt;
+use crate::float::{HAS_F64, sqrt};
 use crate::{Hit, Ray, Sphere};
 
 #[cfg(test)]
@@ -73,58 +72,105 @@ impl Setting {
 #[cold]
 #[inline(never)]
 #[expect(clippy::cast_possible_truncation, reason = "it is rounded already")]
-fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
+fn round_carefully(sphere: &Sphere, ray: &Ray, t: f64, half_chord: f64) -> Option<f32> {
     let side = if half_chord > 0.0 { Side::Near } else { Side::Far };
-    let compare = |midpoint| integers::compare_root(line, side, midpoint);
+    let compare =
+        |midpoint| integers::compare_root(&Line::new(sphere, ray), side, midpoint);
     Format::F32.round(t.into(), plain::ROOT_ERROR / CLEAR, compare).map(|t| t as f32)
 }
 
-/// The nearest hit where the plain step is in doubt: once more, with a finer power close to the surface, and with the bound of
-/// the case from afar.
+/// The power where the plain one is too small to be certain.
+#[cfg_attr(not(target_os = "none"), inline(always))]
+#[cfg_attr(target_os = "none", inline(never))]
+fn fine_power(sphere: &Sphere, ray: &Ray, larger: f64) -> f64 {
+    let Setting { line, o, .. } = Setting::new(sphere, ray);
+    halves::power(line, o, larger)
+}
+
+/// The nearest hit where the plain step is in doubt: once more, as below.
 #[cold]
 #[inline(never)]
-#[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
-fn nearest_again(
+fn nearest_again<D: Derivation>(
     sphere: &Sphere,
     ray: &Ray,
     line: &Line,
-    Range { start, end }: Range<f32>,
+    range: Range<f32>,
 ) -> Option<Found> {
+    match plain_steps::<D>(&Setting::new(sphere, ray), sphere, ray, &range) {
+        Verdict::Miss => None,
+        Verdict::Hit(found) => Some(found),
+        Verdict::Doubt => {
+            nearest_carefully_f32(sphere, ray, line, range.start.into()..range.end.into())
+        }
+    }
+}
+
+/// The nearest hit, by a call: where `f64` is software, that costs next to nothing, and copies of the plain steps much.
+#[inline(never)]
+fn intersect_by_a_call<D: Derivation>(
+    sphere: &Sphere,
+    ray: &Ray,
+    range: Range<f32>,
+) -> Option<Hit> {
     let setting = Setting::new(sphere, ray);
-    let chord = setting.chord::<Quadratic>();
-    let larger = chord.distance_squared.max(setting.radius_squared);
-    let fine_power = || Some(halves::power(setting.line, setting.o, larger));
+    let found = match plain_steps::<D>(&setting, sphere, ray, &range) {
+        Verdict::Miss => return None,
+        Verdict::Hit(found) => found,
+        Verdict::Doubt => {
+            // Converted again, so that it need not be kept.
+            let line = &Line::new(sphere, ray);
+            nearest_carefully_f32(sphere, ray, line, range.start.into()..range.end.into())?
+        }
+    };
+    Some(hit(setting.line, found))
+}
+
+/// Takes the plain step, with a finer power close to the surface, and with the bound of the case from afar.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
+fn plain_steps<D: Derivation>(
+    setting: &Setting,
+    sphere: &Sphere,
+    ray: &Ray,
+    &Range { start, end }: &Range<f32>,
+) -> Verdict<Found> {
+    let chord = setting.chord::<D>();
+    let fine_power = || {
+        let larger = chord.distance_squared.max(setting.radius_squared);
+        Some(fine_power(sphere, ray, larger))
+    };
     let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
     // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
     let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
-    match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
-        Nearest::Root { t, half_chord } => {
-            let rounded = if rounds_safely::<MARGIN>(t) {
-                Some(t as f32)
-            } else {
-                round_carefully(line, t, half_chord)
-            };
-            if let Some(rounded) = rounded {
-                if is_certain(rounded) {
-                    return (rounded < end).then(|| {
-                        if is_far {
-                            setting.found_from_afar(&chord, rounded)
-                        } else {
-                            setting.found(t, rounded)
-                        }
-                    });
+    let (rounded, near) =
+        match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
+            Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) => (t as f32, Some(t)),
+            Nearest::Root { t, half_chord } => {
+                let Some(rounded) = round_carefully(sphere, ray, t, half_chord) else {
+                    return Verdict::Doubt;
+                };
+                (rounded, Some(t))
+            }
+            Nearest::Rough { t, error } => {
+                let [low, rounded] = [(t - error) as f32, (t + error) as f32];
+                if low != rounded || !is_far {
+                    return Verdict::Doubt;
                 }
+                (rounded, None)
             }
-        }
-        Nearest::Rough { t, error } => {
-            let [low, rounded] = [(t - error) as f32, (t + error) as f32];
-            if low == rounded && is_certain(rounded) && is_far {
-                return (rounded < end).then(|| setting.found_from_afar(&chord, rounded));
-            }
-        }
-        Nearest::Miss | Nearest::Doubt => {}
+            Nearest::Miss => return Verdict::Miss,
+            Nearest::Doubt => return Verdict::Doubt,
+        };
+    if !is_certain(rounded) {
+        return Verdict::Doubt;
     }
-    nearest_carefully_f32(sphere, ray, line, start.into()..end.into())
+    if rounded >= end || end.is_nan() {
+        return Verdict::Miss;
+    }
+    Verdict::Hit(match near {
+        Some(t) if !is_far => setting.found(t, rounded),
+        _ => setting.found_from_afar(&chord, rounded),
+    })
 }
 
 impl Precision for Vec3 {
@@ -135,6 +181,9 @@ impl Precision for Vec3 {
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
     fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
+        if !HAS_F64 {
+            return intersect_by_a_call::<D>(sphere, ray, range);
+        }
         let setting = Setting::new(sphere, ray);
         let chord = setting.chord::<D>();
         match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, || None) {
@@ -160,7 +209,7 @@ impl Precision for Vec3 {
             }
             Nearest::Rough { .. } | Nearest::Doubt => {}
         }
-        let found = nearest_again(sphere, ray, &Line::new(sphere, ray), range)?;
+        let found = nearest_again::<D>(sphere, ray, &Line::new(sphere, ray), range)?;
         Some(hit(setting.line, found))
     }
 

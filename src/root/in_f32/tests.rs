@@ -1,4 +1,5 @@
 use super::*;
+use crate::algebraic::Quadratic;
 use crate::geometric::ClosestApproach;
 use crate::root::crossing::{Question, Verdict};
 use crate::root::format::Format;
@@ -164,7 +165,7 @@ fn answers_are_the_exact_ones_rounded() {
             let found = [
                 Vec3::intersect::<Quadratic>(&sphere, &ray, range.clone()).map(|hit| hit.t),
                 Vec3::intersect::<ClosestApproach>(&sphere, &ray, range.clone()).map(|hit| hit.t),
-                nearest_again(&sphere, &ray, &Line::new(&sphere, &ray), range.clone())
+                nearest_again::<Quadratic>(&sphere, &ray, &Line::new(&sphere, &ray), range.clone())
                     .map(|found| found.t as f32),
             ];
             assert_eq!(found, [expected; 3], "{range:?} {numbers:?}");
@@ -191,7 +192,7 @@ fn points_keep_their_tolerance() {
             point.max(normal)
         };
         let line = Line::new(&sphere, &ray);
-        nearest_again(&sphere, &ray, &line, 0.0..f32::INFINITY).map(part)
+        nearest_again::<Quadratic>(&sphere, &ray, &line, 0.0..f32::INFINITY).map(part)
     };
     assert!(search("point of the plain step in f32", 80, 150, start, part) > 0.03);
 }
