@@ -10,7 +10,7 @@ use super::format::Format;
 use super::halves;
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully_f32, integers, nearest_carefully_f32};
+use super::{both_carefully_f32, integers, nearest_carefully_f32, surface};
 use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::pair::U;
 use crate::arithmetic::rounding::rounds_safely;
@@ -87,6 +87,27 @@ fn fine_power(sphere: &Sphere, ray: &Ray, larger: f64) -> f64 {
     halves::power(line, o, larger)
 }
 
+/// The nearest root of a line that starts exactly on the surface: its roots are 0 and 2 h / a.
+#[cold]
+#[inline(never)]
+fn from_the_surface(sphere: &Sphere, ray: &Ray, chord: &Chord<f64>) -> Nearest {
+    let Chord { a, h, distance_squared, .. } = *chord;
+    let line = Line::new(sphere, ray);
+    let (power, error) = surface::power(line.o(), line.radius);
+    // With h² > clear a m, h errs by less than the plain step's roots.
+    if line.radius < 0.0
+        || power.hi != 0.0
+        || error != 0.0
+        || h * h <= CLEAR * (a * distance_squared)
+    {
+        Nearest::Doubt
+    } else if h < 0.0 {
+        Nearest::Miss
+    } else {
+        Nearest::Root { t: 2.0 * h / a, half_chord: -h }
+    }
+}
+
 /// The nearest hit where the plain step is in doubt: once more, as below.
 #[cold]
 #[inline(never)]
@@ -142,25 +163,28 @@ fn plain_steps<D: Derivation>(
     let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
     // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
     let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
-    let (rounded, near) =
-        match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
-            Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) => (t as f32, Some(t)),
-            Nearest::Root { t, half_chord } => {
-                let Some(rounded) = round_carefully(sphere, ray, t, half_chord) else {
-                    return Verdict::Doubt;
-                };
-                (rounded, Some(t))
+    let nearest = match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
+        Nearest::Doubt => from_the_surface(sphere, ray, &chord),
+        nearest => nearest,
+    };
+    let (rounded, near) = match nearest {
+        Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) => (t as f32, Some(t)),
+        Nearest::Root { t, half_chord } => {
+            let Some(rounded) = round_carefully(sphere, ray, t, half_chord) else {
+                return Verdict::Doubt;
+            };
+            (rounded, Some(t))
+        }
+        Nearest::Rough { t, error } => {
+            let [low, rounded] = [(t - error) as f32, (t + error) as f32];
+            if low != rounded || !is_far {
+                return Verdict::Doubt;
             }
-            Nearest::Rough { t, error } => {
-                let [low, rounded] = [(t - error) as f32, (t + error) as f32];
-                if low != rounded || !is_far {
-                    return Verdict::Doubt;
-                }
-                (rounded, None)
-            }
-            Nearest::Miss => return Verdict::Miss,
-            Nearest::Doubt => return Verdict::Doubt,
-        };
+            (rounded, None)
+        }
+        Nearest::Miss => return Verdict::Miss,
+        Nearest::Doubt => return Verdict::Doubt,
+    };
     if !is_certain(rounded) {
         return Verdict::Doubt;
     }

@@ -58,10 +58,17 @@ fn nearest_again(line: &Line, range: Range<f64>) -> Option<Found> {
 /// 2⁻⁹⁰⁰.
 const LEAST_ROOT: f64 = f64::from_bits((1023 - 900) << 52);
 
+/// 2⁻⁵⁰⁰, the square of which is not safe.
+const LEAST_LENGTH: f64 = f64::from_bits((1023 - 500) << 52);
+
 /// The nearest hit of a line that starts close to the surface, or that there is none; `None` where that is not certain.
 #[inline(always)]
 #[expect(clippy::option_option, reason = "a certain miss is an answer, too")]
 fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
+    // No product of subnormal numbers is of use, and each takes long.
+    if line.radius < LEAST_LENGTH || line.direction.abs().max_element() < LEAST_LENGTH {
+        return None;
+    }
     let setting = Setting::of(line);
     let radius_squared = setting.radius_squared;
     let chord = setting.safe_chord::<Quadratic>()?;

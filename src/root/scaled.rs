@@ -3,7 +3,7 @@
 use super::crossing::Line;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::Pair;
-use crate::arithmetic::scaling::{exponent, scale};
+use crate::arithmetic::scaling::{exponent, scale, scale_subnormal};
 
 /// Lengths and directions, each divided by a power of two that brings them near 1.
 pub(super) struct Scaled {
@@ -34,10 +34,10 @@ impl Scaled {
             return Some(Self { o, d, radius, length_exponent: 0, direction_exponent: 0 });
         }
         // What this rounds, far below the largest of its kind, is below every error bound.
-        let shorten = |x: f64| scale(x, -length_exponent);
+        let shorten = |x: f64| scale_subnormal(x, -length_exponent);
         Some(Self {
             o: o.map(|pair| Pair { hi: shorten(pair.hi), lo: shorten(pair.lo) }),
-            d: d.map(|x| scale(x, -direction_exponent)),
+            d: d.map(|x| scale_subnormal(x, -direction_exponent)),
             radius: shorten(radius),
             length_exponent,
             direction_exponent,
