@@ -50,9 +50,11 @@ impl From<f64> for Factor {
     #[inline(always)]
     fn from(x: f64) -> Self {
         let (magnitude, exponent) = integer_and_exponent(x);
+        // Without the zeros at its end, so that more terms fit in one.
+        let zeros = magnitude.trailing_zeros() & 63;
         #[expect(clippy::cast_possible_wrap, reason = "53 bits")]
-        let integer = magnitude as i64;
-        Self { integer: if x < 0.0 { -integer } else { integer }, exponent }
+        let (integer, zeros) = ((magnitude >> zeros) as i64, zeros as i32);
+        Self { integer: if x < 0.0 { -integer } else { integer }, exponent: exponent + zeros }
     }
 }
 
@@ -148,6 +150,7 @@ impl Sum {
     }
 
     /// Adds `times` the product of two terms, which is to be in the range of products of four numbers. |`times`| is 1 or 2.
+    #[inline]
     pub(crate) fn add(&mut self, times: i64, [a, b]: [Term; 2]) {
         if a.is_zero() || b.is_zero() {
             return;

@@ -31,12 +31,18 @@ fn add_square<const N: usize>(sum: &mut Sum, times: i64, terms: [Term; N]) {
 fn value<const N: usize>(terms: [Term; N]) -> Wide {
     /// How many binary places the second term is smaller, so that the first does not cancel.
     const SMALLER: i32 = 8;
+    /// And so many, that it is below the last place of a pair.
+    const NEGLIGIBLE: i32 = 108;
     if terms[1].is_zero() {
         return terms[0].to_wide();
     }
     if terms[2].is_zero() {
         let (first, second) = (terms[0].to_wide(), terms[1].to_wide());
-        if first.exponent() > second.exponent() + SMALLER {
+        let places = first.exponent() - second.exponent();
+        if places > NEGLIGIBLE {
+            return first;
+        }
+        if places > SMALLER {
             return first + second;
         }
     }
@@ -98,10 +104,11 @@ impl Sums {
     /// o × d: each coordinate a sum of terms.
     fn moment_terms(&self) -> [[Term; 4]; 3] {
         let Self { o, d, .. } = *self;
-        [(1, 2), (2, 0), (0, 1)].map(|(j, k)| {
-            let [[j_hi, j_lo], [k_hi, k_lo]] = [o[j].map(|o| o * d[k]), o[k].map(|o| -(o * d[j]))];
-            Term::combined([j_hi, k_hi, j_lo, k_lo])
-        })
+        let coordinate = |j: usize, k: usize| {
+            let ([j_hi, j_lo], [k_hi, k_lo]) = (o[j], o[k]);
+            Term::combined([j_hi * d[k], -(k_hi * d[j]), j_lo * d[k], -(k_lo * d[j])])
+        };
+        [coordinate(1, 2), coordinate(2, 0), coordinate(0, 1)]
     }
 
     /// o × d.
