@@ -1,5 +1,6 @@
 //! `f32`: the plain step in `f64`, where the inputs and most of their products are exact, and one rounding.
 
+use core::borrow::Borrow;
 use core::ops::Range;
 
 use glam::Vec3;
@@ -72,10 +73,9 @@ impl Setting {
 #[cold]
 #[inline(never)]
 #[expect(clippy::cast_possible_truncation, reason = "it is rounded already")]
-fn round_carefully(sphere: &Sphere, ray: &Ray, t: f64, half_chord: f64) -> Option<f32> {
+fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
     let side = if half_chord > 0.0 { Side::Near } else { Side::Far };
-    let compare =
-        |midpoint| integers::compare_root(&Line::new(sphere, ray), side, midpoint);
+    let compare = |midpoint| integers::compare_root(line, side, midpoint);
     Format::F32.round(t.into(), plain::ROOT_ERROR / CLEAR, compare).map(|t| t as f32)
 }
 
@@ -90,9 +90,8 @@ fn fine_power(sphere: &Sphere, ray: &Ray, larger: f64) -> f64 {
 /// The nearest root of a line that starts exactly on the surface: its roots are 0 and 2 h / a.
 #[cold]
 #[inline(never)]
-fn from_the_surface(sphere: &Sphere, ray: &Ray, chord: &Chord<f64>) -> Nearest {
+fn from_the_surface(line: &Line, chord: &Chord<f64>) -> Nearest {
     let Chord { a, h, distance_squared, .. } = *chord;
-    let line = Line::new(sphere, ray);
     let (power, error) = surface::power(line.o(), line.radius);
     // With h² > clear a m, h errs by less than the plain step's roots.
     if line.radius < 0.0
@@ -117,7 +116,7 @@ fn nearest_again<D: Derivation>(
     line: &Line,
     range: Range<f32>,
 ) -> Option<Found> {
-    match plain_steps::<D>(&Setting::new(sphere, ray), sphere, ray, &range) {
+    match plain_steps::<D, _>(&Setting::new(sphere, ray), sphere, ray, || line, &range) {
         Verdict::Miss => None,
         Verdict::Hit(found) => Some(found),
         Verdict::Doubt => {
@@ -134,13 +133,13 @@ fn intersect_by_a_call<D: Derivation>(
     range: Range<f32>,
 ) -> Option<Hit> {
     let setting = Setting::new(sphere, ray);
-    let found = match plain_steps::<D>(&setting, sphere, ray, &range) {
+    // Where it is asked for, so that it need not be kept at hand.
+    let line = || Line::new(sphere, ray);
+    let found = match plain_steps::<D, _>(&setting, sphere, ray, line, &range) {
         Verdict::Miss => return None,
         Verdict::Hit(found) => found,
         Verdict::Doubt => {
-            // Converted again, so that it need not be kept.
-            let line = &Line::new(sphere, ray);
-            nearest_carefully_f32(sphere, ray, line, range.start.into()..range.end.into())?
+            nearest_carefully_f32(sphere, ray, &line(), range.start.into()..range.end.into())?
         }
     };
     Some(hit(setting.line, found))
@@ -149,10 +148,11 @@ fn intersect_by_a_call<D: Derivation>(
 /// Takes the plain step, with a finer power close to the surface, and with the bound of the case from afar.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
-fn plain_steps<D: Derivation>(
+fn plain_steps<D: Derivation, L: Borrow<Line>>(
     setting: &Setting,
     sphere: &Sphere,
     ray: &Ray,
+    line: impl Fn() -> L,
     &Range { start, end }: &Range<f32>,
 ) -> Verdict<Found> {
     let chord = setting.chord::<D>();
@@ -164,13 +164,13 @@ fn plain_steps<D: Derivation>(
     // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
     let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
     let nearest = match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
-        Nearest::Doubt => from_the_surface(sphere, ray, &chord),
+        Nearest::Doubt => from_the_surface(line().borrow(), &chord),
         nearest => nearest,
     };
     let (rounded, near) = match nearest {
         Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) => (t as f32, Some(t)),
         Nearest::Root { t, half_chord } => {
-            let Some(rounded) = round_carefully(sphere, ray, t, half_chord) else {
+            let Some(rounded) = round_carefully(line().borrow(), t, half_chord) else {
                 return Verdict::Doubt;
             };
             (rounded, Some(t))
