@@ -19,6 +19,22 @@ function text() {
     return bytes.toString("utf8", at - length, at);
 }
 
+// A name in the words of the source: `_ZN`, each part after its length, the last of them a hash.
+function demangled(name) {
+    const parts = [];
+    for (let rest = name.slice(3); /^[0-9]/.test(rest); ) {
+        const length = parseInt(rest);
+        const start = String(length).length;
+        parts.push(rest.slice(start, start + length));
+        rest = rest.slice(start + length);
+    }
+    if (!name.startsWith("_ZN") || parts.length < 2) return name;
+    const escapes = { LT: "<", GT: ">", u20: " ", u7b: "{", u7d: "}", C: ",", RF: "&", LP: "(", RP: ")", BP: "*" };
+    const unescaped = (part) =>
+        part.replace(/^_\$/, "$").replace(/\$(\w+)\$/g, (all, code) => escapes[code] ?? all).replaceAll("..", "::");
+    return parts.slice(0, -1).map(unescaped).join("::");
+}
+
 const sizes = [];
 const names = new Map();
 let imports = 0;
@@ -46,4 +62,4 @@ while (at < bytes.length) {
 }
 const rows = sizes.map((size, index) => [size, names.get(imports + index) ?? "without a name"]);
 rows.sort(([a], [b]) => b - a);
-for (const [size, name] of rows) console.log(`${size} ${name}`);
+for (const [size, name] of rows) console.log(`${size} ${demangled(name)}`);
