@@ -1,17 +1,18 @@
 //! `f32`: the plain step in `f64`, where the inputs and most of their products are exact, and one rounding.
 
-use core::borrow::Borrow;
 use core::ops::Range;
 
 use glam::Vec3;
 
+use super::bounded::Bounded;
 use super::chord::{Chord, Derivation};
 use super::crossing::{Found, Line, Setting, Side, Verdict};
 use super::format::Format;
 use super::halves;
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully_f32, integers, nearest_carefully_f32, surface};
+use super::{both_carefully, integers, nearest_carefully, surface};
+use crate::algebraic::Quadratic;
 use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::pair::U;
 use crate::arithmetic::rounding::rounds_safely;
@@ -53,8 +54,8 @@ impl Setting {
     /// 4 u r |o| for what the foot errs by at right angles to d, and by 5 u r²; that error along d counts as a square, as next to
     /// nothing. So half the length, s / √a, is off by less than 5 u r |o| over itself, and 4 u r.
     ///
-    /// A root that is not rough has s / √a > 2⁻¹⁶ |o|, and both are off by less than 2⁻³¹ r. Of a rough one, s² is at least 43 u a m:
-    /// then |o| < 2²³·⁸ r and s / √a > 2⁻²³·⁸ |o|, and they are off by 2⁻²⁵·⁸ r and 2⁻²⁶·⁸ r: by less than 2⁻²⁵ r together.
+    /// A root of the plain step has s / √a > 2⁻¹⁶ |o|, and both are off by less than 2⁻³¹ r. The others are those of
+    /// [`half_chord_from_afar`], whose bounds include these.
     #[inline(always)]
     fn found_from_afar(&self, chord: &Chord<f64>, rounded: f32) -> Found {
         let Self { line, o, radius_squared } = *self;
@@ -79,14 +80,6 @@ fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
     Format::F32.round(t.into(), plain::ROOT_ERROR / CLEAR, compare).map(|t| t as f32)
 }
 
-/// The power where the plain one is too small to be certain.
-#[cfg_attr(not(target_os = "none"), inline(always))]
-#[cfg_attr(target_os = "none", inline(never))]
-fn fine_power(sphere: &Sphere, ray: &Ray, larger: f64) -> f64 {
-    let Setting { line, o, .. } = Setting::new(sphere, ray);
-    halves::power(line, o, larger)
-}
-
 /// The nearest root of a line that starts exactly on the surface: its roots are 0 and 2 h / a.
 #[cold]
 #[inline(never)]
@@ -107,155 +100,208 @@ fn from_the_surface(line: &Line, chord: &Chord<f64>) -> Nearest {
     }
 }
 
-/// The nearest hit where the plain step is in doubt: once more, as below.
+/// The nearest hit where the plain step is in doubt: once more, with a finer power close to the surface, and with the bound of
+/// the case from afar.
 #[cold]
 #[inline(never)]
-fn nearest_again<D: Derivation>(
+#[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
+fn nearest_again(
     sphere: &Sphere,
     ray: &Ray,
     line: &Line,
-    range: Range<f32>,
+    Range { start, end }: Range<f32>,
 ) -> Option<Found> {
-    match plain_steps::<D, _>(&Setting::new(sphere, ray), sphere, ray, || line, &range) {
-        Verdict::Miss => None,
-        Verdict::Hit(found) => Some(found),
-        Verdict::Doubt => {
-            nearest_carefully_f32(sphere, ray, line, range.start.into()..range.end.into())
+    let setting = Setting::new(sphere, ray);
+    let chord = setting.chord::<Quadratic>();
+    let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
+    let nearest = if is_far { from_afar(&setting, &chord) } else { again(&setting, line, &chord) };
+    let Nearest::Root { t, half_chord } = nearest else {
+        if matches!(nearest, Nearest::Miss) {
+            return None;
         }
+        return nearest_carefully(line, Format::F32, start.into()..end.into());
+    };
+    let rounded = if rounds_safely::<MARGIN>(t) {
+        Some(t as f32)
+    } else {
+        round_carefully(line, t, half_chord)
+    };
+    // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
+    match rounded {
+        Some(rounded) if rounded >= start && rounded >= f32::MIN_POSITIVE => {
+            (rounded < end).then(|| {
+                if is_far {
+                    setting.found_from_afar(&chord, rounded)
+                } else {
+                    setting.found(t, rounded)
+                }
+            })
+        }
+        _ => nearest_carefully(line, Format::F32, start.into()..end.into()),
     }
 }
 
-/// The nearest hit, by a call: where `f64` is software, that costs next to nothing, and copies of the plain steps much.
+/// The nearest root ahead, with a finer power.
+#[inline(always)]
+fn again(setting: &Setting, line: &Line, chord: &Chord<f64>) -> Nearest {
+    let larger = chord.distance_squared.max(setting.radius_squared);
+    let fine_power = || Some(halves::power(setting.line, setting.o, larger));
+    match plain::nearest_ahead(chord, setting.radius_squared, CLEAR, fine_power) {
+        Nearest::Doubt => from_the_surface(line, chord),
+        nearest => nearest,
+    }
+}
+
+/// Half the chord from farther than [`NEAR`], by the closest approach.
+///
+/// With the discriminant within e, half the chord s errs by e / 2 s, which counts against a sum of P or more in the root, and in the
+/// point against a radius, of which it is to be less than 2⁻²⁶.
+#[inline(always)]
+fn half_chord_from_afar(setting: &Setting) -> Verdict<f64> {
+    /// Of s P, so that the root errs by 2⁻³⁵ of itself.
+    const OF_REACH: f64 = 1.0 / 17_179_869_184.0; // 2^-34
+    const OF_RADIUS: f64 = 1.0 / 33_554_432.0; // 2^-25
+    /// The foot of the closest approach errs by 10 u |o|, less than 2⁻²⁶ r up to that.
+    const FARTHEST: f64 = 12_582_912.0; // 3/2 2^23
+
+    let Setting { line, o, radius_squared } = *setting;
+    let bounded = Bounded::new(o.into(), line.direction.into(), radius_squared);
+    let Bounded { chord: Chord { discriminant, .. }, error, length, distance } = bounded;
+    if discriminant < -error {
+        return Verdict::Miss;
+    }
+    let half_chord = sqrt(discriminant);
+    let is_certain = error < OF_REACH * (half_chord * bounded.reach())
+        && error < OF_RADIUS * (half_chord * line.radius * length)
+        && distance < FARTHEST * line.radius;
+    if is_certain { Verdict::Hit(half_chord) } else { Verdict::Doubt }
+}
+
+/// The nearest root ahead from there.
+#[inline(always)]
+fn from_afar(setting: &Setting, &Chord { h, power, .. }: &Chord<f64>) -> Nearest {
+    // Outside for sure: both roots lie on the side of the closest approach, as in the plain step.
+    if h <= 0.0 {
+        return Nearest::Miss;
+    }
+    match half_chord_from_afar(setting) {
+        Verdict::Miss => Nearest::Miss,
+        Verdict::Hit(half_chord) => Nearest::Root { t: power / (h + half_chord), half_chord },
+        Verdict::Doubt => Nearest::Doubt,
+    }
+}
+
+/// Both roots where the plain step is in doubt: once more, as above.
+#[cold]
+#[inline(never)]
+fn both_again(sphere: &Sphere, ray: &Ray, line: &Line) -> Option<[f64; 2]> {
+    let setting = Setting::new(sphere, ray);
+    let chord = setting.chord::<Quadratic>();
+    let roots = if exceeds(chord.distance_squared, NEAR, setting.radius_squared) {
+        match half_chord_from_afar(&setting) {
+            Verdict::Miss => return None,
+            Verdict::Hit(half_chord) => Both::from_half_chord(&chord, half_chord),
+            Verdict::Doubt => Both::Doubt,
+        }
+    } else {
+        let larger = chord.distance_squared.max(setting.radius_squared);
+        let fine_power = || Some(halves::power(setting.line, setting.o, larger));
+        plain::both(&chord, setting.radius_squared, CLEAR, fine_power)
+    };
+    if let Both::Roots { t, .. } = roots {
+        if let Some(rounded) = surely_rounded(t) {
+            return Some(rounded.map(f64::from));
+        }
+    }
+    both_carefully(line, Format::F32)
+}
+
+/// The nearest hit.
+// Inlined always: so that what a caller does not use of the hit is not computed.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
+fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
+    let setting = Setting::new(sphere, ray);
+    let chord = setting.chord::<D>();
+    match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, || None) {
+        Nearest::Miss => return None,
+        Nearest::Root { t, .. } => {
+            let rounded = t as f32;
+            // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
+            if rounds_safely::<MARGIN>(t)
+                && rounded >= range.start
+                && rounded >= f32::MIN_POSITIVE
+            {
+                if rounded >= range.end || range.end.is_nan() {
+                    return None;
+                }
+                // The two apart, so that the compiler need not keep what one of them does without.
+                return if exceeds(chord.distance_squared, NEAR, setting.radius_squared) {
+                    let found = setting.found_from_afar(&chord, rounded);
+                    Some(hit(setting.line, found))
+                } else {
+                    Some(hit(setting.line, setting.found(t, rounded)))
+                };
+            }
+        }
+        Nearest::Doubt => {}
+    }
+    let found = nearest_again(sphere, ray, &Line::new(sphere, ray), range)?;
+    Some(hit(setting.line, found))
+}
+
+/// The same by a call: where `f64` is software, that costs next to nothing, and copies of the plain step much.
 #[inline(never)]
 fn intersect_by_a_call<D: Derivation>(
     sphere: &Sphere,
     ray: &Ray,
     range: Range<f32>,
 ) -> Option<Hit> {
-    let setting = Setting::new(sphere, ray);
-    // Where it is asked for, so that it need not be kept at hand.
-    let line = || Line::new(sphere, ray);
-    let found = match plain_steps::<D, _>(&setting, sphere, ray, line, &range) {
-        Verdict::Miss => return None,
-        Verdict::Hit(found) => found,
-        Verdict::Doubt => {
-            nearest_carefully_f32(sphere, ray, &line(), range.start.into()..range.end.into())?
-        }
-    };
-    Some(hit(setting.line, found))
-}
-
-/// Takes the plain step, with a finer power close to the surface, and with the bound of the case from afar.
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
-fn plain_steps<D: Derivation, L: Borrow<Line>>(
-    setting: &Setting,
-    sphere: &Sphere,
-    ray: &Ray,
-    line: impl Fn() -> L,
-    &Range { start, end }: &Range<f32>,
-) -> Verdict<Found> {
-    let chord = setting.chord::<D>();
-    let fine_power = || {
-        let larger = chord.distance_squared.max(setting.radius_squared);
-        Some(fine_power(sphere, ray, larger))
-    };
-    let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
-    // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
-    let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
-    let nearest = match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
-        Nearest::Doubt => from_the_surface(line().borrow(), &chord),
-        nearest => nearest,
-    };
-    let (rounded, near) = match nearest {
-        Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) => (t as f32, Some(t)),
-        Nearest::Root { t, half_chord } => {
-            let Some(rounded) = round_carefully(line().borrow(), t, half_chord) else {
-                return Verdict::Doubt;
-            };
-            (rounded, Some(t))
-        }
-        Nearest::Rough { t, error } => {
-            let [low, rounded] = [(t - error) as f32, (t + error) as f32];
-            if low != rounded || !is_far {
-                return Verdict::Doubt;
-            }
-            (rounded, None)
-        }
-        Nearest::Miss => return Verdict::Miss,
-        Nearest::Doubt => return Verdict::Doubt,
-    };
-    if !is_certain(rounded) {
-        return Verdict::Doubt;
-    }
-    if rounded >= end || end.is_nan() {
-        return Verdict::Miss;
-    }
-    Verdict::Hit(match near {
-        Some(t) if !is_far => setting.found(t, rounded),
-        _ => setting.found_from_afar(&chord, rounded),
-    })
+    intersect::<D>(sphere, ray, range)
 }
 
 impl Precision for Vec3 {
     const UNIT_ULP: f64 = f32::EPSILON as f64;
     const LEAST_POSITIVE: f64 = f32::from_bits(1) as f64;
 
-    // Inlined always: so that what a caller does not use of the hit is not computed.
     #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
     fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
-        if !HAS_F64 {
-            return intersect_by_a_call::<D>(sphere, ray, range);
+        if HAS_F64 {
+            intersect::<D>(sphere, ray, range)
+        } else {
+            intersect_by_a_call::<D>(sphere, ray, range)
         }
-        let setting = Setting::new(sphere, ray);
-        let chord = setting.chord::<D>();
-        match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, || None) {
-            Nearest::Miss => return None,
-            Nearest::Root { t, .. } => {
-                let rounded = t as f32;
-                // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
-                if rounds_safely::<MARGIN>(t)
-                    && rounded >= range.start
-                    && rounded >= f32::MIN_POSITIVE
-                {
-                    if rounded >= range.end || range.end.is_nan() {
-                        return None;
-                    }
-                    // The two apart, so that the compiler need not keep what one of them does without.
-                    return if exceeds(chord.distance_squared, NEAR, setting.radius_squared) {
-                        let found = setting.found_from_afar(&chord, rounded);
-                        Some(hit(setting.line, found))
-                    } else {
-                        Some(hit(setting.line, setting.found(t, rounded)))
-                    };
-                }
-            }
-            Nearest::Rough { .. } | Nearest::Doubt => {}
-        }
-        let found = nearest_again::<D>(sphere, ray, &Line::new(sphere, ray), range)?;
-        Some(hit(setting.line, found))
     }
 
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "the roots are rounded once, here")]
     fn roots<D: Derivation>(sphere: &Sphere, ray: &Ray) -> Option<[f32; 2]> {
         let setting = Setting::new(sphere, ray);
-        match plain::both(&setting.chord::<D>(), setting.radius_squared, CLEAR) {
+        match plain::both(&setting.chord::<D>(), setting.radius_squared, CLEAR, || None) {
             Both::Miss => return None,
-            Both::Roots { t: [near, far], .. }
-                if rounds_safely::<MARGIN>(near) && rounds_safely::<MARGIN>(far) =>
-            {
-                let rounded = [near as f32, far as f32];
-                if rounded[0].is_normal() && rounded[1].is_normal() {
+            Both::Roots { t, .. } => {
+                if let Some(rounded) = surely_rounded(t) {
                     return Some(rounded);
                 }
             }
-            _ => {}
+            Both::Doubt => {}
         }
-        both_carefully_f32(sphere, ray, &Line::new(sphere, ray))
-            .map(|roots| roots.map(|root| root as f32))
+        let roots = both_again(sphere, ray, &Line::new(sphere, ray))?;
+        Some(roots.map(|root| root as f32))
     }
+}
+
+/// Both roots of the plain step rounded, if that is certain.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the roots are rounded once, here")]
+fn surely_rounded([near, far]: [f64; 2]) -> Option<[f32; 2]> {
+    if rounds_safely::<MARGIN>(near) && rounds_safely::<MARGIN>(far) {
+        let rounded = [near as f32, far as f32];
+        if rounded[0].is_normal() && rounded[1].is_normal() {
+            return Some(rounded);
+        }
+    }
+    None
 }
 
 /// The hit, rounded.

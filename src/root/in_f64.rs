@@ -10,7 +10,7 @@ use super::format::Format;
 use super::halves::{self, Correction};
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully_f64, integers, nearest_carefully_f64, surface};
+use super::{both_carefully, integers, nearest_carefully, surface};
 use crate::algebraic::Quadratic;
 use crate::float::sqrt;
 use crate::{Hit, Ray, Sphere};
@@ -52,7 +52,7 @@ impl Setting {
 #[cold]
 #[inline(never)]
 fn nearest_again(line: &Line, range: Range<f64>) -> Option<Found> {
-    from_the_surface(*line, &range).unwrap_or_else(|| nearest_carefully_f64(line, range))
+    from_the_surface(*line, &range).unwrap_or_else(|| nearest_carefully(line, Format::F64, range))
 }
 
 /// 2⁻⁹⁰⁰.
@@ -143,7 +143,7 @@ impl Precision for DVec3 {
                         }
                     }
                 }
-                Nearest::Rough { .. } | Nearest::Doubt => {}
+                Nearest::Doubt => {}
             }
         }
         let found = nearest_again(&Line::new(sphere, ray), range)?;
@@ -154,7 +154,7 @@ impl Precision for DVec3 {
     fn roots<D: Derivation>(sphere: &Sphere<Self>, ray: &Ray<Self>) -> Option<[f64; 2]> {
         let setting = Setting::new(sphere, ray);
         if let Some(chord) = setting.safe_chord::<D>() {
-            match plain::both(&chord, setting.radius_squared, halves::CLEAR) {
+            match plain::both(&chord, setting.radius_squared, halves::CLEAR, || None) {
                 Both::Miss => return None,
                 Both::Roots { t: [near, far], half_chord } => {
                     let correction = setting.correction(&chord);
@@ -168,7 +168,7 @@ impl Precision for DVec3 {
                 Both::Doubt => {}
             }
         }
-        both_carefully_f64(&Line::new(sphere, ray))
+        both_carefully(&Line::new(sphere, ray), Format::F64)
     }
 }
 

@@ -58,68 +58,33 @@ use crossing::{Answer, Found, Line, Question, Verdict};
 use format::Format;
 use integers::Exact;
 
-use crate::{Ray, Sphere};
-
 #[cfg(test)]
 mod tests;
 
-/// Finds the nearest hit, where the plain step in `f32` leaves a doubt.
-///
-/// The line is that of the ray and the sphere. It is at hand and later steps want it, but it has just been written, and to read it
-/// at once, two numbers at a time where they were not written so, takes longer than to convert them again.
-#[cold]
-#[inline(never)]
-fn nearest_carefully_f32(
-    sphere: &Sphere,
-    ray: &Ray,
-    line: &Line,
-    range: Range<f64>,
-) -> Option<Found> {
-    bounded(Line::new(sphere, ray), line, &Question::Nearest(range))?.nearest()
-}
-
-/// Finds both roots, ascending, where the plain step in `f32` leaves a doubt. As above of the line.
-#[cold]
-#[inline(never)]
-fn both_carefully_f32(sphere: &Sphere, ray: &Ray, line: &Line) -> Option<[f64; 2]> {
-    bounded(Line::new(sphere, ray), line, &Question::Both)?.both()
-}
-
-/// Finds the nearest hit, where the plain step in `f64` and its correction leave a doubt.
-#[cold]
-#[inline(never)]
-fn nearest_carefully_f64(line: &Line, range: Range<f64>) -> Option<Found> {
-    in_pairs(line, &Question::Nearest(range))?.nearest()
-}
-
-/// Finds both roots, ascending, where the plain step in `f64` and its correction leave a doubt.
-#[cold]
-#[inline(never)]
-fn both_carefully_f64(line: &Line) -> Option<[f64; 2]> {
-    in_pairs(line, &Question::Both)?.both()
-}
-
-/// Takes the steps of `f32` with a bound of the case, and integers where there is a doubt. Both lines are the same.
+/// Finds the nearest hit, where the plain steps leave a doubt.
 #[inline(always)]
-fn bounded(converted: Line, line: &Line, question: &Question) -> Option<Answer> {
-    match bounded::chord(converted).and_then(|chord| question.ask(&chord)) {
+fn nearest_carefully(line: &Line, format: Format, range: Range<f64>) -> Option<Found> {
+    carefully(line, format, &Question::Nearest(range))?.nearest()
+}
+
+/// Finds both roots, ascending, where the plain steps leave a doubt.
+#[inline(always)]
+fn both_carefully(line: &Line, format: Format) -> Option<[f64; 2]> {
+    carefully(line, format, &Question::Both)?.both()
+}
+
+/// Takes the steps that are the same for both precisions, and compiled once.
+#[cold]
+#[inline(never)]
+fn carefully(line: &Line, format: Format, question: &Question) -> Option<Answer> {
+    match pairs::chord(line, format).and_then(|chord| question.ask(&chord)) {
         Verdict::Miss => None,
         Verdict::Hit(answer) => Some(answer),
-        Verdict::Doubt => in_integers(line, Format::F32, question),
+        Verdict::Doubt => in_integers(line, format, question),
     }
 }
 
-/// Takes the step of `f64` in pairs, and integers where there is a doubt.
-#[inline(always)]
-fn in_pairs(line: &Line, question: &Question) -> Option<Answer> {
-    match pairs::chord(line).and_then(|chord| question.ask(&chord)) {
-        Verdict::Miss => None,
-        Verdict::Hit(answer) => Some(answer),
-        Verdict::Doubt => in_integers(line, Format::F64, question),
-    }
-}
-
-/// Takes the last step, which is compiled once for both precisions.
+/// Takes the last step.
 #[cold]
 #[inline(never)]
 fn in_integers(line: &Line, format: Format, question: &Question) -> Option<Answer> {

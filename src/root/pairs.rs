@@ -27,7 +27,7 @@
 
 use core::cmp::Ordering;
 
-use super::bounded;
+use super::bounded::Bounded;
 use super::chord::Chord;
 use super::crossing::{Crossings, Found, Line, Side, Verdict};
 use super::format::{Format, Midpoint};
@@ -69,10 +69,13 @@ const MOST_BEND: f64 = 1.0 / 64.0;
 /// The chord from a point of the line, and the line.
 pub(super) struct InPairs<'a> {
     line: &'a Line,
+    format: Format,
     scaled: Scaled,
     /// t of that point.
     start: f64,
     a: f64,
+    /// |d|.
+    length: f64,
     h: f64,
     /// √discriminant.
     half_chord: f64,
@@ -97,40 +100,42 @@ fn offset(Scaled { o, d, .. }: &Scaled, t: f64) -> Triple<Pair> {
 ///
 /// A NaN, an infinity, a zero direction and a negative radius end in doubt.
 #[inline(always)]
-pub(super) fn chord(line: &Line) -> Verdict<InPairs<'_>> {
-    let Some(mut scaled) = Scaled::new(line) else { return Verdict::Doubt };
+pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
+    let Some(scaled) = Scaled::new(line) else { return Verdict::Doubt };
     let Scaled { o, d, radius, .. } = scaled;
     if radius < 0.0 {
         return Verdict::Doubt;
     }
     let radius_squared = radius * radius;
-    let plain = bounded::Plain::new(o.map(|o| o.hi), d, radius_squared);
-    let Chord { a, h, distance_squared, discriminant, .. } = plain.chord;
-    if discriminant < -plain.error {
+    let bounded = Bounded::new(o.map(|o| o.hi), d, radius_squared);
+    let Chord { a, h, distance_squared, discriminant, .. } = bounded.chord;
+    let Bounded { error, length, distance, .. } = bounded;
+    if discriminant < -error {
         return Verdict::Miss;
     }
-    let size = sqrt(distance_squared.max(radius_squared));
-    if discriminant > SURE * plain.error && discriminant > SURE_H * plain.reach_squared {
-        let half_chord = sqrt(discriminant);
-        return Verdict::Hit(InPairs { line, scaled, start: 0.0, a, h, half_chord, size });
+    let reach_squared = a * distance_squared;
+    let size = distance.max(radius);
+    let near = InPairs { line, format, scaled, start: 0.0, a, length, h, half_chord: 0.0, size };
+    if discriminant > SURE * error && discriminant > SURE_H * reach_squared {
+        return Verdict::Hit(InPairs { half_chord: sqrt(discriminant), ..near });
     }
 
     let start = h / a;
-    let w = offset(&scaled, start);
+    let w = offset(&near.scaled, start);
     let (power, larger) = power_in_pairs(w, radius);
     let along = compensated_dot(d, w.map(|w| w.hi));
     let along = along.hi + (along.lo + d.dot(w.map(|w| w.lo)));
     let discriminant = along * along - a * power.hi;
-    let error = a * (MOVED_ERROR * larger + MOVED_REACH_ERROR * sqrt(larger * distance_squared))
-        + MOVED_ALONG_ERROR * plain.reach_squared;
+    let size = sqrt(larger);
+    let error = a * (MOVED_ERROR * larger + MOVED_REACH_ERROR * (size * distance))
+        + MOVED_ALONG_ERROR * reach_squared;
     if discriminant < -error {
         return Verdict::Miss;
     }
     if discriminant > 4.0 * error {
         let half_chord = sqrt(discriminant);
-        scaled.o = w.map(|w| -w);
-        let size = sqrt(larger);
-        return Verdict::Hit(InPairs { line, scaled, start, a, h: -along, half_chord, size });
+        let scaled = Scaled { o: w.map(|w| -w), ..near.scaled };
+        return Verdict::Hit(InPairs { scaled, start, h: -along, half_chord, size, ..near });
     }
     Verdict::Doubt
 }
@@ -149,7 +154,7 @@ impl InPairs<'_> {
     /// The root on that side, in scaled units.
     #[inline(always)]
     fn corrected(&self, side: Side) -> Option<Corrected> {
-        let Self { start, a, h, half_chord, size, .. } = *self;
+        let Self { start, a, length, h, half_chord, size, .. } = *self;
         let Scaled { d, radius, .. } = self.scaled;
         let along = if side == Side::Near { h - half_chord } else { h + half_chord };
         let way = along / a;
@@ -158,14 +163,15 @@ impl InPairs<'_> {
         let inverse_slope = (2.0 * w.map(|w| w.hi).dot(d)).recip();
         let q = power.hi * inverse_slope;
         let correction = -(q + q * (a * q * inverse_slope));
-        let bend = a * correction / half_chord;
+        let per_half_chord = half_chord.recip();
+        let bend = a * correction * per_half_chord;
         if bend.abs() > MOST_BEND {
             return None;
         }
         let of_correction =
-            SLOPE_ERROR * (radius * sqrt(a) / half_chord) + CORRECTION_ERROR + bend * bend;
+            SLOPE_ERROR * (radius * length * per_half_chord) + CORRECTION_ERROR + bend * bend;
         let residual_error = (RESIDUAL_ERROR * radius + RESIDUAL_REACH_ERROR * size) * radius;
-        let error = residual_error / half_chord + correction.abs() * of_correction;
+        let error = residual_error * per_half_chord + correction.abs() * of_correction;
         let t = two_sum(start, way);
         let t = fast_two_sum(t.hi, t.lo + correction);
         Some(Corrected { t, error, w, correction })
@@ -220,7 +226,7 @@ impl Crossings for InPairs<'_> {
         let corrected = self.corrected(side)?;
         let relative_error = corrected.error / corrected.t.hi.abs() + PAIR_ERROR;
         let exponent = self.scaled.exponent();
-        let t = Format::F64.round(corrected.t, relative_error, |Midpoint { integer, exponent: unit }| {
+        let t = self.format.round(corrected.t, relative_error, |Midpoint { integer, exponent: unit }| {
             self.compare(side, Midpoint { integer, exponent: unit + exponent })
         })?;
         Some((self.scaled.unscaled_root(t)?, corrected))
@@ -230,8 +236,9 @@ impl Crossings for InPairs<'_> {
     fn hit(&self, _: Side, t: f64, root: Corrected) -> Option<Found> {
         let Scaled { radius, .. } = self.scaled;
         let residual = OFFSET_ERROR * radius + OFFSET_REACH_ERROR * self.size;
-        let offset_error = root.error * sqrt(self.a) + residual;
-        let is_certain = offset_error <= 0.5 * root.allowed(&self.scaled, self.a, Format::F64);
+        let offset_error = root.error * self.length + residual;
+        let is_certain =
+            offset_error <= 0.5 * root.allowed(&self.scaled, self.length, self.format);
         is_certain.then(|| root.hit(self.line, &self.scaled, t))
     }
 }
@@ -239,9 +246,9 @@ impl Crossings for InPairs<'_> {
 impl Corrected {
     /// The error that is allowed for a point.
     #[inline(always)]
-    fn allowed(&self, scaled: &Scaled, a: f64, format: Format) -> f64 {
+    fn allowed(&self, scaled: &Scaled, length: f64, format: Format) -> f64 {
         let tolerance = format.point_tolerance();
-        let travelled = self.t.hi.abs() * sqrt(a);
+        let travelled = self.t.hi.abs() * length;
         (tolerance.of_radius * scaled.radius).min(tolerance.of_distance * travelled)
     }
 
@@ -282,11 +289,11 @@ pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Pair) -> Option<
     }
     let Scaled { o, d, radius, .. } = scaled;
     let o = o.map(|o| o.hi);
-    let (a, travelled) = (d.dot(d), root.hi * root.hi * d.dot(d));
+    let length = sqrt(d.dot(d));
     let w = offset(&scaled, root.hi);
     let root = Corrected { t: root, error: 0.0, w, correction: root.lo };
-    let reach = sqrt(o.dot(o)) + radius + sqrt(travelled);
-    (ERROR * reach <= 0.5 * root.allowed(&scaled, a, format)).then(|| root.hit(line, &scaled, t))
+    let reach = sqrt(o.dot(o)) + radius + root.t.hi.abs() * length;
+    (ERROR * reach <= 0.5 * root.allowed(&scaled, length, format)).then(|| root.hit(line, &scaled, t))
 }
 
 /// A coordinate of a vector of about unit length, zero where it is so small that the low part of a product underflowed on the way:

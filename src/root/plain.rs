@@ -62,15 +62,6 @@ pub(super) const ROOT_ERROR: f64 = POWER_ERROR + DISCRIMINANT_ERROR / 2.0 + U / 
 /// Beyond this part of m, a power from a finer sum is certain enough: see [`nearest_ahead`].
 const FINE_POWER: f64 = 1.0 / 1_099_511_627_776.0; // 2^-40
 
-/// Beyond this part of a m, the discriminant is certain enough for a rough root: it is 43 u a m in truth.
-const SURE_HIT: f64 = 64.0 * U;
-
-/// Of a rough root, times s / m.
-///
-/// As s t ≤ m, the power brings 7 u. The discriminant brings 21 u a m over the sum of s and √43/8 s, in a sum of no less than √(a m)
-/// and so in t of √(m / a): 21 u / 1.81. What is left is 4 u s / √(a m) and 3 u, with s t and s / √(a m) far below 1.
-const ROUGH_ERROR: f64 = POWER_ERROR + DISCRIMINANT_ERROR / 1.75 + 2.0 * U;
-
 /// The nearest root ahead.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Nearest {
@@ -82,8 +73,6 @@ pub(super) enum Nearest {
         /// √discriminant where the ray enters there, -√discriminant where it leaves.
         half_chord: f64,
     },
-    /// From outside, this one, within `error`.
-    Rough { t: f64, error: f64 },
     /// The next step has to look.
     Doubt,
 }
@@ -125,8 +114,6 @@ pub(super) fn nearest_ahead(
                     return Nearest::Root { t: power / sum, half_chord };
                 }
             }
-        } else if discriminant > SURE_HIT * (a * distance_squared) {
-            return Nearest::Rough { t, error: ROUGH_ERROR * distance_squared / half_chord };
         }
     } else if exceeds(-power, SURE_SIGN, radius_squared) {
         // Inside: one root lies ahead, (h + s) / a, and it cancels where the center is behind.
@@ -163,21 +150,42 @@ pub(super) enum Both {
     Doubt,
 }
 
-/// Finds both roots of a chord in plain `f64`. A NaN or an infinity anywhere and a zero direction end in a miss or in doubt, and so
-/// does a negative radius.
+impl Both {
+    /// The root that does not cancel, and the smaller one from the product of the roots.
+    #[inline(always)]
+    pub(super) fn from_half_chord(chord: &Chord<f64>, half_chord: f64) -> Self {
+        let Chord { a, h, power, .. } = *chord;
+        let sum = h.abs() + half_chord;
+        let (x, y) = (sum / a, power / sum);
+        Self::Roots { t: if h > 0.0 { [y, x] } else { [-x, -y] }, half_chord }
+    }
+}
+
+/// Finds both roots of a chord in plain `f64`. What [`nearest_ahead`] says of a finer power holds here too. A NaN or an infinity
+/// anywhere, a zero direction and a negative radius end in a miss or in doubt.
 #[inline(always)]
-pub(super) fn both(chord: &Chord<f64>, radius_squared: f64, clear: f64) -> Both {
+pub(super) fn both(
+    chord: &Chord<f64>,
+    radius_squared: f64,
+    clear: f64,
+    fine_power: impl FnOnce() -> Option<f64>,
+) -> Both {
     let Chord { a, h, distance_squared, power, discriminant } = *chord;
     let larger = if power > 0.0 { distance_squared } else { radius_squared };
     if discriminant < -SURE_MISS * (a * larger) {
         return Both::Miss;
     }
-    // The root that does not cancel, and the smaller one from the product of the roots.
     let half_chord = sqrt(discriminant);
     let sum = h.abs() + half_chord;
-    let (x, y) = (sum / a, power / sum);
-    if half_chord * y.abs() > clear * larger {
-        return Both::Roots { t: if h > 0.0 { [y, x] } else { [-x, -y] }, half_chord };
+    if half_chord * (power / sum).abs() > clear * larger {
+        return Both::from_half_chord(chord, half_chord);
+    }
+    if half_chord * sum > clear * (a * larger) {
+        if let Some(power) = fine_power() {
+            if power.abs() > FINE_POWER * larger {
+                return Both::from_half_chord(&Chord { power, ..*chord }, half_chord);
+            }
+        }
     }
     Both::Doubt
 }

@@ -1,5 +1,4 @@
 use super::*;
-use crate::algebraic::Quadratic;
 use crate::geometric::ClosestApproach;
 use crate::root::crossing::{Question, Verdict};
 use crate::root::format::Format;
@@ -49,17 +48,13 @@ fn effort(sphere: &Sphere, ray: &Ray) -> Effort {
         }
         _ => {}
     }
-    let larger = chord.distance_squared.max(setting.radius_squared);
-    let fine_power = || Some(halves::power(setting.line, setting.o, larger));
-    match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, fine_power) {
-        Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) && is_certain(t) => {
-            return Effort::Again;
-        }
-        Nearest::Rough { t, error } => {
-            let is_far = chord.distance_squared > NEAR * setting.radius_squared;
-            if (t - error) as f32 == (t + error) as f32 && is_certain(t) && is_far {
-                return Effort::Again;
-            }
+    let is_far = chord.distance_squared > NEAR * setting.radius_squared;
+    let nearest =
+        if is_far { from_afar(&setting) } else { again(&setting, &setting.line, &chord) };
+    match nearest {
+        Nearest::Miss => return Effort::Again,
+        Nearest::Root { t, .. } if is_certain(t) => {
+            return if rounds_safely::<MARGIN>(t) { Effort::Again } else { Effort::Integers };
         }
         _ => {}
     }
@@ -165,7 +160,7 @@ fn answers_are_the_exact_ones_rounded() {
             let found = [
                 Vec3::intersect::<Quadratic>(&sphere, &ray, range.clone()).map(|hit| hit.t),
                 Vec3::intersect::<ClosestApproach>(&sphere, &ray, range.clone()).map(|hit| hit.t),
-                nearest_again::<Quadratic>(&sphere, &ray, &Line::new(&sphere, &ray), range.clone())
+                nearest_again(&sphere, &ray, &Line::new(&sphere, &ray), range.clone())
                     .map(|found| found.t as f32),
             ];
             assert_eq!(found, [expected; 3], "{range:?} {numbers:?}");
@@ -192,7 +187,7 @@ fn points_keep_their_tolerance() {
             point.max(normal)
         };
         let line = Line::new(&sphere, &ray);
-        nearest_again::<Quadratic>(&sphere, &ray, &line, 0.0..f32::INFINITY).map(part)
+        nearest_again(&sphere, &ray, &line, 0.0..f32::INFINITY).map(part)
     };
     assert!(search("point of the plain step in f32", 80, 150, start, part) > 0.03);
 }

@@ -18,7 +18,7 @@ pub(in crate::root) fn effort(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> Effor
                     return Effort::Hot;
                 }
             }
-            Nearest::Rough { .. } | Nearest::Doubt => {}
+            Nearest::Doubt => {}
         }
     }
     if from_the_surface(setting.line, &range).is_some() {
