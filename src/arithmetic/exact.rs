@@ -115,7 +115,8 @@ impl Term {
     #[cfg_attr(not(target_os = "none"), inline(always))]
     #[cfg_attr(target_os = "none", inline(never))]
     fn plus(self, other: Self) -> Option<Self> {
-        let (high, low) = if self.exponent < other.exponent { (other, self) } else { (self, other) };
+        let (high, low) =
+            if self.exponent < other.exponent { (other, self) } else { (self, other) };
         let places = (high.exponent - low.exponent).unsigned_abs();
         let fits = |term: Self, places: u32| {
             u128::BITS - term.integer.unsigned_abs().leading_zeros() + places < Self::BITS

@@ -24,6 +24,7 @@ pub(crate) const V: f64 = U * U;
 ///
 /// To first order: the sum of the low parts, each at most u of its number, is rounded by v (|a| + |b|), and with the low part
 /// of the sum of the high parts, at most u |a + b| more, by 2 v (|a| + |b|). That makes 3; the fourth is to spare.
+#[cfg(test)]
 pub(crate) const SUM_ERROR: f64 = 4.0 * V;
 /// Of a product of pairs, in |a b|: Joldes, Muller and Popescu's algorithm 10, for which they prove 5.
 #[cfg(test)]
@@ -34,16 +35,19 @@ pub(crate) const PRODUCT_ERROR: f64 = 5.0 * V;
 /// is exact and at most u; the product of the quotient and the low part of b is rounded by v, its difference from the low part
 /// of a by 2 v, and the sum of both, at most 3 u, by 2 v; the division of that by 2 v, and by the high part of b instead of all
 /// of b, 3 v.
+#[cfg(test)]
 pub(crate) const QUOTIENT_ERROR: f64 = 10.0 * V;
 /// Of the square root of a pair, in itself.
 ///
 /// To first order, and where it is largest, with a number just above 1: the remainder, at most 3 u, is rounded by 2 v, which
 /// counts half; its quotient, 3/2 u, by v; and Newton's step leaves half the square of that, 9/8 v. That makes 25/8.
+#[cfg(test)]
 pub(crate) const ROOT_ERROR: f64 = 4.0 * V;
 /// Of a compensated dot product, in the sum of the |aᵢ bᵢ|.
 ///
 /// To first order: the errors of products are at most u of them, those of the two sums u of the whole each, and the four
 /// additions of these are rounded by at most 1, 2, 2 and 3 v of the whole, in the order in which they are carried out here.
+#[cfg(test)]
 pub(crate) const COMPENSATED_DOT_ERROR: f64 = 8.0 * V;
 
 /// The sum `hi + lo`, where `hi` is the sum rounded to an `f64`.

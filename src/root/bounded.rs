@@ -3,7 +3,7 @@
 //! The first step has to be quick, so its bound covers all cases. Where it leaves a doubt, the bound is computed, and the geometric
 //! derivation is taken whichever was asked for, because its error does not grow with the square of the distance.
 //!
-//! With u = 2⁻⁵³, P = |o| |d|, M = |o × d| and each of o = c - p rounded once, to first order and then rounded up:
+//! With u = 2⁻⁵³, P = |o| |d|, M = |o × d| as computed and each of o = c - p rounded once, to first order and then rounded up:
 //!
 //! ```text
 //! o × d         two products of rounded o, difference      |error| ≤ 2√2 u P + u M

@@ -11,7 +11,7 @@
 //! coordinate a multiple of the same power of two and of at most 26 bits, and a low part of the rest. A dot product of high
 //! parts is then exact in plain `f64`, whichever way it is summed up: each product is an integer multiple of one power of two,
 //! and by the inequality of Cauchy and Schwarz no partial sum exceeds 2⁵³ of these. Those of o are multiples of 2⁻²⁶ √m or more, as
-//! coarse as those of w at the least, so that their sum with w.high is exact too, up to |o|² = [`FARTHEST`] r². Only products with
+//! coarse as those of w at the least, so that their sum with w.high is exact too: |o| < 2¹⁶ r where a root is clear of doubt. Only products with
 //! low parts are rounded, and these are 2⁻²⁶ of the whole. (Rump, Ogita and Oishi, *Accurate Floating-Point Summation*, 2008,
 //! extract vectors so.)
 //!
@@ -41,17 +41,16 @@ pub(super) const CLEAR: f64 = 1.0 / 65536.0;
 const CLEAR_OF_RESIDUAL: f64 = 1.0 / 1_048_576.0;
 
 /// Of t, in r √m / s: 2⁻⁷².
-pub(super) const RESIDUAL_ERROR: f64 = U / 524_288.0;
+#[cfg(test)]
+const RESIDUAL_ERROR: f64 = U / 524_288.0;
 
 /// Of the slope w·d, in r |d|.
-pub(super) const SLOPE_ERROR: f64 = 4.0 * U;
+#[cfg(test)]
+const SLOPE_ERROR: f64 = 4.0 * U;
 
 /// Of w, in √m: 2⁻⁷⁴.
-pub(super) const OFFSET_ERROR: f64 = U / 2_097_152.0;
-
-/// The largest square of |o| / r. Where the low parts of t d and of o, 2⁻²³ |o| together, are no longer small beside r, neither is
-/// the high part of w a number of 26 bits.
-pub(super) const FARTHEST: f64 = 1_099_511_627_776.0; // 2^40
+#[cfg(test)]
+const OFFSET_ERROR: f64 = U / 2_097_152.0;
 
 /// How far off a corrected root may be, as a part of itself: 2⁻⁶², and half of that for all else.
 const ROOT_ERROR: f64 = U / 512.0 * 1.5;

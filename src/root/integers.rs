@@ -44,7 +44,8 @@ impl Exact {
     }
 
     /// Whether the coordinates span so many digits that only accumulators hold their products.
-    pub(super) fn is_wide(&self) -> bool {
+    #[cfg(test)]
+    fn is_wide(&self) -> bool {
         matches!(self, Self::Wide(_))
     }
 
@@ -131,7 +132,7 @@ fn plainly_ahead(line: &Line, number: Midpoint) -> Option<Ordering> {
     let (ahead, size) = (h - am, d.abs().dot(o.abs()) + am.abs());
     let is_certain =
         m.is_normal() && ahead.abs() > ERROR * size && ahead.abs() > LEAST && size.is_finite();
-    is_certain.then(|| if ahead > 0.0 { Ordering::Greater } else { Ordering::Less })
+    if is_certain { ahead.partial_cmp(&0.0) } else { None }
 }
 
 /// How the root on that side compares with a number midway between two floats.

@@ -35,7 +35,9 @@ use super::integers;
 use super::scaled::Scaled;
 use super::surface::{self, power_in_pairs};
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum};
+use crate::arithmetic::pair::{
+    Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum,
+};
 use crate::arithmetic::scaling::scale;
 use crate::float::sqrt;
 
@@ -226,9 +228,13 @@ impl Crossings for InPairs<'_> {
         let corrected = self.corrected(side)?;
         let relative_error = corrected.error / corrected.t.hi.abs() + PAIR_ERROR;
         let exponent = self.scaled.exponent();
-        let t = self.format.round(corrected.t, relative_error, |Midpoint { integer, exponent: unit }| {
-            self.compare(side, Midpoint { integer, exponent: unit + exponent })
-        })?;
+        let t = self.format.round(
+            corrected.t,
+            relative_error,
+            |Midpoint { integer, exponent: unit }| {
+                self.compare(side, Midpoint { integer, exponent: unit + exponent })
+            },
+        )?;
         Some((self.scaled.unscaled_root(t)?, corrected))
     }
 
@@ -237,8 +243,7 @@ impl Crossings for InPairs<'_> {
         let Scaled { radius, .. } = self.scaled;
         let residual = OFFSET_ERROR * radius + OFFSET_REACH_ERROR * self.size;
         let offset_error = root.error * self.length + residual;
-        let is_certain =
-            offset_error <= 0.5 * root.allowed(&self.scaled, self.length, self.format);
+        let is_certain = offset_error <= 0.5 * root.allowed(&self.scaled, self.length, self.format);
         is_certain.then(|| root.hit(self.line, &self.scaled, t))
     }
 }
@@ -293,7 +298,8 @@ pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Pair) -> Option<
     let w = offset(&scaled, root.hi);
     let root = Corrected { t: root, error: 0.0, w, correction: root.lo };
     let reach = sqrt(o.dot(o)) + radius + root.t.hi.abs() * length;
-    (ERROR * reach <= 0.5 * root.allowed(&scaled, length, format)).then(|| root.hit(line, &scaled, t))
+    (ERROR * reach <= 0.5 * root.allowed(&scaled, length, format))
+        .then(|| root.hit(line, &scaled, t))
 }
 
 /// A coordinate of a vector of about unit length, zero where it is so small that the low part of a product underflowed on the way:

@@ -15,7 +15,7 @@ pub(super) struct Scaled {
 }
 
 impl Scaled {
-    /// `None` where the difference of the positions is no pair, or all lengths are zero.
+    /// `None` where the difference of the positions is no pair, or all lengths are zero. A NaN in the direction or the radius may stay.
     #[inline(always)]
     pub(super) fn new(line: &Line) -> Option<Self> {
         /// Fourth powers of what lies within this of 1 neither overflow nor lose anything in a pair.
@@ -32,6 +32,9 @@ impl Scaled {
         let direction_exponent = exponent(direction.abs().max_element());
         if length_exponent.abs() < NEAR && direction_exponent.abs() < NEAR {
             return Some(Self { o, d, radius, length_exponent: 0, direction_exponent: 0 });
+        }
+        if !line.is_valid() {
+            return None;
         }
         // What this rounds, far below the largest of its kind, is below every error bound.
         let shorten = |x: f64| scale_subnormal(x, -length_exponent);

@@ -38,7 +38,7 @@ impl Case {
 
     /// The roots of the first step, and half the chord.
     fn roots(&self) -> Option<([f64; 2], f64)> {
-        match both(&self.chord, self.radius_squared, CLEAR) {
+        match both(&self.chord, self.radius_squared, CLEAR, || None) {
             Both::Roots { t, half_chord } => Some((t, half_chord)),
             _ => None,
         }

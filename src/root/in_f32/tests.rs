@@ -3,7 +3,7 @@ use crate::geometric::ClosestApproach;
 use crate::root::crossing::{Question, Verdict};
 use crate::root::format::Format;
 use crate::root::tests::{line, parts_of_tolerance, single};
-use crate::root::{bounded, in_f64, pairs};
+use crate::root::{in_f64, pairs};
 use crate::testing::{Dyadic, ExactChord, Lie, Random, nearest, search, setting};
 
 #[expect(clippy::duplicate_mod, reason = "other unit tests take it, too")]
@@ -19,21 +19,15 @@ pub(in crate::root) enum Effort {
     Hot,
     /// A finer power or a rough root.
     Again,
-    Bounded,
     Pairs,
     Integers,
 }
 
-/// Which of the steps with a bound of the case decides.
+/// Which of the steps that are the same for both precisions decides.
 pub(in crate::root) fn careful_effort(line: &Line, format: Format, range: Range<f64>) -> Effort {
     let question = Question::Nearest(range);
-    let (verdict, effort) = match format {
-        Format::F32 => {
-            (bounded::chord(*line).and_then(|chord| question.ask(&chord)), Effort::Bounded)
-        }
-        Format::F64 => (pairs::chord(line).and_then(|chord| question.ask(&chord)), Effort::Pairs),
-    };
-    if matches!(verdict, Verdict::Doubt) { Effort::Integers } else { effort }
+    let verdict = pairs::chord(line, format).and_then(|chord| question.ask(&chord));
+    if matches!(verdict, Verdict::Doubt) { Effort::Integers } else { Effort::Pairs }
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
@@ -50,7 +44,7 @@ fn effort(sphere: &Sphere, ray: &Ray) -> Effort {
     }
     let is_far = chord.distance_squared > NEAR * setting.radius_squared;
     let nearest =
-        if is_far { from_afar(&setting) } else { again(&setting, &setting.line, &chord) };
+        if is_far { from_afar(&setting, &chord) } else { again(&setting, &setting.line, &chord) };
     match nearest {
         Nearest::Miss => return Effort::Again,
         Nearest::Root { t, .. } if is_certain(t) => {
@@ -67,23 +61,18 @@ fn effort(sphere: &Sphere, ray: &Ray) -> Effort {
 fn how_often_the_careful_paths_run() {
     const CASES: u32 = 2000;
     let print = |name: &str, precision: &str, efforts: &mut dyn FnMut() -> Effort| {
-        let mut counts = [0; 5];
+        let mut counts = [0; 4];
         for _ in 0..CASES {
             counts[efforts() as usize] += 1;
         }
         let parts = counts.map(|count| 100.0 * f64::from(count) / f64::from(CASES));
-        let [hot, again, bounded, pairs, integers] = parts;
-        println!(
-            "{name:<28} {precision} {hot:>8.2} {again:>8.2} {bounded:>8.2} {pairs:>8.2} {integers:>8.2}"
-        );
+        let [hot, again, pairs, integers] = parts;
+        println!("{name:<28} {precision} {hot:>8.2} {again:>8.2} {pairs:>8.2} {integers:>8.2}");
         if name == "easy" {
             assert!(hot > 99.0, "the hot path is the rule");
         }
     };
-    println!(
-        "{:<32} {:>8} {:>8} {:>8} {:>8} {:>8}",
-        "%", "hot", "again", "bounded", "pairs", "integers"
-    );
+    println!("{:<32} {:>8} {:>8} {:>8} {:>8}", "%", "hot", "again", "pairs", "integers");
     for family in FAMILIES {
         let mut rng = Rng::new(1);
         print(family.name, "f32", &mut || {

@@ -63,4 +63,3 @@ impl Crossing {
         Found { t, point: point.into(), normal: normal.into() }
     }
 }
-

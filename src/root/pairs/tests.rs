@@ -46,7 +46,7 @@ fn in_pairs<T>(
     numbers: [f64; 10],
     then: impl FnOnce(InPairs<'_>) -> Option<T>,
 ) -> Option<T> {
-    match chord(&line(numbers)) {
+    match chord(&line(numbers), Format::F64) {
         Verdict::Doubt => None,
         Verdict::Miss => {
             assert!(exact.discriminant.is_negative(), "the line hits: {numbers:?}");
@@ -239,7 +239,7 @@ fn pairs_are_not_certain_of_tangents() {
         if let Some(part) = roots(&exact, numbers) {
             assert!(part <= 1.0, "{numbers:?}");
         }
-        doubts += u32::from(matches!(chord(&line(numbers)), Verdict::Doubt));
+        doubts += u32::from(matches!(chord(&line(numbers), Format::F64), Verdict::Doubt));
     }
     assert!((count / 5..count * 4 / 5).contains(&doubts), "{doubts} of {count} in doubt");
 }
@@ -255,7 +255,9 @@ fn lines_of_any_size_are_brought_near_1() {
             *number = scale(*number, if (6..9).contains(&index) { directions } else { lengths });
         }
         let [here, there] = [numbers, scaled].map(line);
-        let (Verdict::Hit(here), Verdict::Hit(there)) = (chord(&here), chord(&there)) else {
+        let (Verdict::Hit(here), Verdict::Hit(there)) =
+            (chord(&here, Format::F64), chord(&there, Format::F64))
+        else {
             panic!("both hit: {numbers:?}");
         };
         let e = there.scaled.exponent();
@@ -277,7 +279,7 @@ fn lines_of_any_size_are_brought_near_1() {
 
 #[test]
 fn no_pair_is_no_chord() {
-    let doubt = |numbers| matches!(chord(&line(numbers)), Verdict::Doubt);
+    let doubt = |numbers| matches!(chord(&line(numbers), Format::F64), Verdict::Doubt);
     // A difference that overflows, and all lengths zero.
     let far = f64::MAX;
     assert!(doubt([far, 0.0, 0.0, -far, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0]));

@@ -77,13 +77,15 @@ fn powers_that_vanish_vanish() {
         assert!(part_of_power(&exact, numbers) <= 1.0, "{numbers:?}");
     }
     // And they are known to.
-    for (x, y, radius) in [(3.0, 4.0, 5.0), (51_539_607_555.0, 68_719_476_740.0, 85_899_345_925.0)] {
+    for (x, y, radius) in [(3.0, 4.0, 5.0), (51_539_607_555.0, 68_719_476_740.0, 85_899_345_925.0)]
+    {
         let exact = power(line([x, y, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, radius]).o(), radius);
         assert_eq!(exact, (Pair { hi: 0.0, lo: 0.0 }, 0.0));
     }
     // What underflows is not.
     for tiny in [1e-150, 1e-200] {
-        let (power, error) = power(line([3.0, 4.0, tiny, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 5.0]).o(), 5.0);
+        let (power, error) =
+            power(line([3.0, 4.0, tiny, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 5.0]).o(), 5.0);
         assert!(power.hi >= 0.0 && error > 0.0, "{tiny}");
     }
 }
