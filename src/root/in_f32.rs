@@ -50,7 +50,7 @@ impl Setting {
     /// The same from afar, where the error of t would move the point: by the closest approach.
     ///
     /// Its foot, (h / a) d - o, is off by 8 u |o| along d, what h brings besides o's error, a, its reciprocal and a product; and by
-    /// u |o| each for o and for the product with d: by less than 10 u |o|. The square of half the chord's length is off by
+    /// u |o| each for o, across d, and for the product with d: by less than 9.1 u |o|. The square of half the chord's length is off by
     /// 4 u r |o| for what the foot errs by at right angles to d, and by 5 u r²; that error along d counts as a square, as next to
     /// nothing. So half the length, s / √a, is off by less than 5 u r |o| over itself, and 4 u r.
     ///
@@ -161,8 +161,8 @@ fn half_chord_from_afar(setting: &Setting) -> Verdict<f64> {
     /// Of s P, so that the root errs by 2⁻³⁵ of itself.
     const OF_REACH: f64 = 1.0 / 17_179_869_184.0; // 2^-34
     const OF_RADIUS: f64 = 1.0 / 33_554_432.0; // 2^-25
-    /// The foot of the closest approach errs by 10 u |o|, less than 2⁻²⁶ r up to that.
-    const FARTHEST: f64 = 12_582_912.0; // 3/2 2^23
+    /// The foot of the closest approach errs by 9.1 u |o|, less than 2⁻²⁶ r up to that.
+    const FARTHEST: f64 = 14_680_064.0; // 7/8 2^24
 
     let Setting { line, o, radius_squared } = *setting;
     let bounded = Bounded::new(o.into(), line.direction.into(), radius_squared);
@@ -228,9 +228,7 @@ fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Op
         Nearest::Root { t, .. } => {
             let rounded = t as f32;
             // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
-            if rounds_safely::<MARGIN>(t)
-                && rounded >= range.start
-                && rounded >= f32::MIN_POSITIVE
+            if rounds_safely::<MARGIN>(t) && rounded >= range.start && rounded >= f32::MIN_POSITIVE
             {
                 if rounded >= range.end || range.end.is_nan() {
                     return None;
