@@ -1,29 +1,36 @@
-//! `f64`: the origin moved along the line, exactly, to where nothing cancels, and the quadratic solved from there.
+//! The origin moved along the line, exactly, to where nothing cancels, and the quadratic solved from there.
 //!
-//! A ray is the same line from any of its points. With w = t d - o, from the center to where it is at t, the quadratic from there is
-//! `a τ² + 2 (w·d) τ + (w·w - r²)`, and its discriminant, (w·d)² - a (w·w - r²), is the same for every t. Of a t in `f64`, w is
+//! A ray lies on the same line wherever on it its origin is. With w = t d - o, from the center to where the line is at t, the quadratic
+//! from there is `a τ² + 2 (w·d) τ + (w·w - r²)`. Its discriminant, (w·d)² - a (w·w - r²), is the same for every t. Of a t in `f64`, w is
 //! computed in pairs, and so is w·w - r², where nearly all cancels; all else is plain.
 //!
-//! **At the closest approach**, t = h / a but for rounding, the discriminant loses nothing, because w·d is next to zero there, w no
-//! longer than a radius, and what is known of w is what is known of the coordinates. Where the plain discriminant is certain enough,
-//! that is not needed. **At the root**, but for rounding, τ is a correction, to third order
+//! **At the closest approach**, t = h / a but for rounding, the discriminant loses nothing to cancellation: w·d is next to zero there,
+//! and w is no longer than a radius. Where the plain discriminant is certain enough, this move is left out. **At the root**, but for
+//! rounding, τ is a correction, to third order
 //!
 //! ```text
 //! τ = -q (1 + a q / 2 (w·d)),   q = (w·w - r²) / 2 (w·d)
 //! ```
 //!
-//! **The errors**, with v = u², P = |o| |d|, R the larger of |w| and r, m that of o·o and r², to first order and then rounded up:
+//! **The errors**, with v = u², P = |o| |d|, R the larger of |w| and r, m that of o·o and r², s = √discriminant, to first order:
 //!
 //! ```text
-//! w             t d exact;  its low part less that of o, 2 v;  and the error of the sum, 3 v, of |t d| + |o|    |error| ≤ 5 v (|t d| + |o|)
-//! w·w - r²      see there: 40 v R²;  and of w, 10 v |o| at the closest approach         |error| ≤ 40 v R² + 21 v R |o|
-//! w·d           at the closest approach, as h is: its size ≤ 8 u P;  as a dot product   |error| ≤  4 u R |d|
-//! discriminant  2 (8 u P) (4 u R |d|);  a (w·w - r²);  products, difference, 2 u each   |error| ≤ 40 v a R² + 85 v R |d| P + 2 u (D + 2 (w·d)²)
-//! a t           at the root by the plain chord:  h, 4 u P;  a and the quotient, 4 u of the sum;  half the chord
+//! w             all is exact but for two additions of low parts                    |error| ≤ v |w| + 4 u v (|t d| + |o|)
 //! ```
 //!
-//! At the root, |t d| ≤ 2 √m: w errs by 15 v √m, and w·w - r² by 70 v r √m, which is 35 v r √m / s in t, with half the chord s. The
-//! slope w·d errs by 4 u r |d|, and what is left out of τ is (a τ / s)² / 2 of it.
+//! At the closest approach, where |t d| ≤ |o|, w·d is of no more than 8 u P, for what h, a and the quotient are rounded by, and
+//!
+//! ```text
+//! w·w - r²      40 v R² as a power in pairs, and what w errs by                    |error| ≤ 42 v R² + 16 u v R |o|
+//! w·d           8 v compensated, the low parts 7 v, w 1 v                          |error| ≤ 16 v R |d| + 24 u v P + u |w·d|
+//! (w·d)²        2 (8 u P) times that, and its rounding                             |error| ≤ 256 u v P R |d| + 192 u v P²
+//! a (w·w - r²)  a, 3 u, the rounding of the power and of the product               |error| ≤ that of the power, a times, + 5 u (D + (w·d)²)
+//! discriminant  and the difference, u                                              |error| ≤ 42 v a R² + 272 u v P R |d| + 512 u v P² + 6 u D
+//! ```
+//!
+//! At the root, |t d| ≤ 2 √m. After the first move, what w erred by there counts too, with R ≤ r + 8 u |o|: so w errs by 2 v r + 16 u v √m,
+//! and w·w - r² by 46 v r² + 32 u v r √m, which is half of that over s in t. The slope w·d errs by 4 u r |d|, of 8 u there are five in the
+//! operations of τ, and what is left out of τ is (a τ / s)² / 2 of it.
 
 use core::cmp::Ordering;
 
@@ -35,9 +42,7 @@ use super::integers;
 use super::scaled::Scaled;
 use super::surface::{self, power_in_pairs};
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{
-    Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum,
-};
+use crate::arithmetic::pair::{Pair, U, V, compensated_dot, two_difference, two_product, two_sum};
 use crate::arithmetic::scaling::scale;
 use crate::float::sqrt;
 
@@ -46,20 +51,20 @@ mod tests;
 
 /// A plain discriminant is certain enough where it is more than so many times what it may err by.
 const SURE: f64 = 1024.0;
-/// And more than this part of P², 2⁻⁶⁴: then s > 2⁻³² P, so that with 2⁻⁵⁰ P of a t in doubt, a τ < 2⁻¹⁸ s, and τ³ is negligible.
+/// And more than this part of P², 2⁻⁶⁴: then s > 2⁻³² P, and what h and the quotient err by, 12 u P, is below 2⁻¹⁷ s.
 const SURE_H: f64 = U / 2048.0;
 
 /// Of the discriminant from the closest approach, in a R², in a R |o| and in P².
 const MOVED_ERROR: f64 = 48.0 * V;
-const MOVED_REACH_ERROR: f64 = 256.0 * U * V;
+const MOVED_REACH_ERROR: f64 = 320.0 * U * V;
 const MOVED_ALONG_ERROR: f64 = 1024.0 * U * V;
 
 /// Of w at the root, in r, and in √m.
 const OFFSET_ERROR: f64 = 4.0 * V;
-const OFFSET_REACH_ERROR: f64 = 16.0 * U * V;
+const OFFSET_REACH_ERROR: f64 = 32.0 * U * V;
 /// Of the root, in r² / s, and in r √m / s.
 const RESIDUAL_ERROR: f64 = 24.0 * V;
-const RESIDUAL_REACH_ERROR: f64 = 16.0 * U * V;
+const RESIDUAL_REACH_ERROR: f64 = 32.0 * U * V;
 /// Of the slope, in r |d|, and of the operations of the correction, in itself.
 const SLOPE_ERROR: f64 = 5.0 * U;
 const CORRECTION_ERROR: f64 = 8.0 * U;
@@ -85,7 +90,7 @@ pub(super) struct InPairs<'a> {
     size: f64,
 }
 
-/// w = t d - o.
+/// w = t d - o. Where it is next to nothing beside o, the low part need not be small beside the high one.
 #[inline(always)]
 fn offset(Scaled { o, d, .. }: &Scaled, t: f64) -> Triple<Pair> {
     o.zip(*d, |o, d| {
@@ -123,13 +128,12 @@ pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
     }
 
     let start = h / a;
-    let w = offset(&near.scaled, start);
+    let w = offset(&near.scaled, start).map(|w| two_sum(w.hi, w.lo));
     let (power, larger) = power_in_pairs(w, radius);
     let along = compensated_dot(d, w.map(|w| w.hi));
     let along = along.hi + (along.lo + d.dot(w.map(|w| w.lo)));
     let discriminant = along * along - a * power.hi;
-    let size = sqrt(larger);
-    let error = a * (MOVED_ERROR * larger + MOVED_REACH_ERROR * (size * distance))
+    let error = a * (MOVED_ERROR * larger + MOVED_REACH_ERROR * (sqrt(larger) * distance))
         + MOVED_ALONG_ERROR * reach_squared;
     if discriminant < -error {
         return Verdict::Miss;
@@ -137,7 +141,7 @@ pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
     if discriminant > 4.0 * error {
         let half_chord = sqrt(discriminant);
         let scaled = Scaled { o: w.map(|w| -w), ..near.scaled };
-        return Verdict::Hit(InPairs { scaled, start, h: -along, half_chord, size, ..near });
+        return Verdict::Hit(InPairs { scaled, start, h: -along, half_chord, ..near });
     }
     Verdict::Doubt
 }
@@ -175,7 +179,7 @@ impl InPairs<'_> {
         let residual_error = (RESIDUAL_ERROR * radius + RESIDUAL_REACH_ERROR * size) * radius;
         let error = residual_error * per_half_chord + correction.abs() * of_correction;
         let t = two_sum(start, way);
-        let t = fast_two_sum(t.hi, t.lo + correction);
+        let t = two_sum(t.hi, t.lo + correction);
         Some(Corrected { t, error, w, correction })
     }
 
@@ -216,7 +220,8 @@ fn quadratic_at(line: &Line, number: Midpoint) -> Option<Ordering> {
     let w = Triple { x: exact.x.0, y: exact.y.0, z: exact.z.0 };
     let (power, error) = surface::power(w, line.radius);
     // 0 only where all is exact.
-    let error = error + 3.0 * (w.x.hi.abs() + w.y.hi.abs() + w.z.hi.abs()) * dropped;
+    let size = w.x.hi.abs() + w.y.hi.abs() + w.z.hi.abs();
+    let error = error + 3.0 * (size + dropped) * dropped;
     if power.hi.abs() > error || error == 0.0 { power.hi.partial_cmp(&0.0) } else { None }
 }
 
