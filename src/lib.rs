@@ -63,9 +63,10 @@
 //!
 //! - `std` (default): square roots from the hardware, and `alloc`.
 //! - `libm`: square roots from the [libm](https://docs.rs/libm) crate, for `no_std`. One of `std` and `libm` is needed. On a
-//!   Cortex-M4F, whose hardware has no `f64`, `intersect` of a [`Sphere`] takes 47 kB of code in `f32` and 60 kB in both precisions
-//!   beyond the textbook's formula, optimized for size. An easy hit takes some 45 times the formula's instructions there, one from
-//!   1,000 radii away 70 times; a miss through [`nearest`] 2.3 times (`tests/targets/run`, in the repository).
+//!   Cortex-M4F, whose hardware has no `f64`, an easy hit takes 35 times the instructions of the textbook's formula, one from 1,000
+//!   radii away 50 times, and a miss through [`nearest`] 2.3 times. Beyond the formula, `intersect` of a [`Sphere`] takes 50 kB of
+//!   code there in `f32` and 57 kB in both precisions, optimized for size, and 42 kB and 48 kB in WebAssembly
+//!   (`tests/targets/run costs`, in the repository).
 //! - `alloc`: [`Spheres`] and [`SphereBvh`], and [`Hittable`] for `Vec`, `Box`, `Rc` and `Arc`. Implied by `std`.
 //! - `serde`: `Serialize` and `Deserialize` for all data types. A [`Camera`] is validated when it is deserialized. It is read bit for
 //!   bit by a format that reads each `f64` so: `serde_json` needs its feature `float_roundtrip` for that.

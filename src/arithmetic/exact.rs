@@ -69,7 +69,8 @@ pub(crate) struct Term {
 impl Mul for Factor {
     type Output = Term;
 
-    #[inline(always)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
+    #[cfg_attr(target_os = "none", inline(never))]
     fn mul(self, other: Self) -> Term {
         let integer = i128::from(self.integer) * i128::from(other.integer);
         Term { integer, exponent: self.exponent + other.exponent }
@@ -111,7 +112,8 @@ impl Term {
     }
 
     /// The sum, if it has the bits of a term.
-    #[inline(always)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
+    #[cfg_attr(target_os = "none", inline(never))]
     fn plus(self, other: Self) -> Option<Self> {
         let (high, low) =
             if self.exponent < other.exponent { (other, self) } else { (self, other) };

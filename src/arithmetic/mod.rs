@@ -1,5 +1,6 @@
 //! The arithmetic that the two derivations are carried out in.
 
+pub(crate) mod comparison;
 pub(crate) mod exact;
 pub(crate) mod number;
 pub(crate) mod pair;

@@ -1,10 +1,12 @@
 //! What a derivation may do with a number, so that it is written once and carried out in `f64` or in pairs.
 
+use core::array;
 use core::ops::{Add, Div, Mul, Sub};
 
 use glam::DVec3;
 
 use super::pair::Pair;
+use crate::float::HAS_F64;
 
 /// A number that a derivation can be carried out in.
 pub trait Number:
@@ -47,7 +49,8 @@ impl<N: Number> Triple<N> {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
+    #[cfg_attr(target_os = "none", inline(never))]
     pub fn cross(self, other: Self) -> Self {
         Self {
             x: self.y * other.z - self.z * other.y,
@@ -58,12 +61,22 @@ impl<N: Number> Triple<N> {
 
     #[inline(always)]
     pub fn map<M>(self, f: impl Fn(N) -> M) -> Triple<M> {
-        Triple { x: f(self.x), y: f(self.y), z: f(self.z) }
+        if HAS_F64 {
+            return Triple { x: f(self.x), y: f(self.y), z: f(self.z) };
+        }
+        let numbers = [self.x, self.y, self.z];
+        let [x, y, z] = array::from_fn(|axis| f(numbers[axis]));
+        Triple { x, y, z }
     }
 
     #[inline(always)]
     pub fn zip<M, O: Copy>(self, other: Triple<O>, f: impl Fn(N, O) -> M) -> Triple<M> {
-        Triple { x: f(self.x, other.x), y: f(self.y, other.y), z: f(self.z, other.z) }
+        if HAS_F64 {
+            return Triple { x: f(self.x, other.x), y: f(self.y, other.y), z: f(self.z, other.z) };
+        }
+        let (numbers, others) = ([self.x, self.y, self.z], [other.x, other.y, other.z]);
+        let [x, y, z] = array::from_fn(|axis| f(numbers[axis], others[axis]));
+        Triple { x, y, z }
     }
 }
 

@@ -74,7 +74,8 @@ pub(crate) fn two_difference(a: f64, b: f64) -> Pair {
 }
 
 /// `a + b`, exactly, where |a| ≥ |b| or a = 0 (Dekker's fast two-sum).
-#[inline(always)]
+#[cfg_attr(not(target_os = "none"), inline(always))]
+#[cfg_attr(target_os = "none", inline(never))]
 pub(crate) fn fast_two_sum(a: f64, b: f64) -> Pair {
     let hi = a + b;
     Pair { hi, lo: b - (hi - a) }
@@ -128,7 +129,8 @@ impl Pair {
     ///
     /// Where the low part may have underflowed, it is left out: what is left of it depends on whether the machine has a fused
     /// multiply-add.
-    #[inline(always)]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
+    #[cfg_attr(target_os = "none", inline(never))]
     pub(crate) fn times(self, factor: f64) -> Self {
         const SMALL: f64 = f64::from_bits((1023 - 900) << 52); // 2^-900
         let product = two_product(self.hi, factor);

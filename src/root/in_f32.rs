@@ -13,9 +13,10 @@ use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
 use super::{both_carefully, integers, nearest_carefully, surface};
 use crate::algebraic::Quadratic;
+use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::pair::U;
 use crate::arithmetic::rounding::rounds_safely;
-use crate::float::sqrt;
+use crate::float::{HAS_F64, sqrt};
 use crate::{Hit, Ray, Sphere};
 
 #[cfg(test)]
@@ -48,16 +49,22 @@ impl Setting {
 
     /// The same from afar, where the error of t would move the point: by the closest approach.
     ///
-    /// Its foot is off by 4√2 u |o| at most, less than 2⁻²⁶ r up to |o| = 2²⁴ r, and farther away the discriminant is not certain
-    /// to be positive. Half the chord is off by 4 u (2 r² + r |o|) over itself, less than 2⁻²⁶ r where it is more than 2⁻²⁴ |o|, as
-    /// it is where the discriminant is more than 22 u a m.
+    /// Its foot, (h / a) d - o, is off by 8 u |o| along d, what h brings besides o's error, a, its reciprocal and a product; and by
+    /// u |o| each for o, across d, and for the product with d: by less than 9.1 u |o|. The square of half the chord's length is off by
+    /// 4 u r |o| for what the foot errs by at right angles to d, and by 5 u r²; that error along d counts as a square, as next to
+    /// nothing. So half the length, s / √a, is off by less than 5 u r |o| over itself, and 4 u r.
+    ///
+    /// A root of the plain step has s / √a > 2⁻¹⁶ |o|, and both are off by less than 2⁻³¹ r. The others are those of
+    /// [`half_chord_from_afar`], whose bounds include these.
     #[inline(always)]
-    fn found_from_afar(&self, a: f64, rounded: f32, half_chord: f64) -> Found {
+    fn found_from_afar(&self, chord: &Chord<f64>, rounded: f32) -> Found {
         let Self { line, o, radius_squared } = *self;
-        let moment = o.cross(line.direction);
-        let square = a * radius_squared - moment.length_squared();
-        let along = sqrt(square.max(0.0)).copysign(-half_chord);
-        let offset = (moment.cross(line.direction) + line.direction * along) / a;
+        let per_a = chord.a.recip();
+        // From the center to the closest approach, and the square of half the chord's length.
+        let foot = line.direction * (chord.h * per_a) - o;
+        let square = radius_squared - foot.length_squared();
+        let along = if is_not_positive(square) { 0.0 } else { sqrt(square * per_a) };
+        let offset = foot - line.direction * along;
         let normal = offset * line.radius.recip();
         Found { t: rounded.into(), point: line.center + offset, normal }
     }
@@ -106,7 +113,7 @@ fn nearest_again(
 ) -> Option<Found> {
     let setting = Setting::new(sphere, ray);
     let chord = setting.chord::<Quadratic>();
-    let is_far = chord.distance_squared > NEAR * setting.radius_squared;
+    let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
     let nearest = if is_far { from_afar(&setting, &chord) } else { again(&setting, line, &chord) };
     let Nearest::Root { t, half_chord } = nearest else {
         if matches!(nearest, Nearest::Miss) {
@@ -124,7 +131,7 @@ fn nearest_again(
         Some(rounded) if rounded >= start && rounded >= f32::MIN_POSITIVE => {
             (rounded < end).then(|| {
                 if is_far {
-                    setting.found_from_afar(chord.a, rounded, half_chord)
+                    setting.found_from_afar(&chord, rounded)
                 } else {
                     setting.found(t, rounded)
                 }
@@ -154,8 +161,8 @@ fn half_chord_from_afar(setting: &Setting) -> Verdict<f64> {
     /// Of s P, so that the root errs by 2⁻³⁵ of itself.
     const OF_REACH: f64 = 1.0 / 17_179_869_184.0; // 2^-34
     const OF_RADIUS: f64 = 1.0 / 33_554_432.0; // 2^-25
-    /// The foot of the closest approach errs by 4√2 u |o|, less than 2⁻²⁶ r up to |o| = 2²⁴ r.
-    const FARTHEST: f64 = 16_777_216.0; // 2^24
+    /// The foot of the closest approach errs by 9.1 u |o|, less than 2⁻²⁶ r up to that.
+    const FARTHEST: f64 = 14_680_064.0; // 7/8 2^24
 
     let Setting { line, o, radius_squared } = *setting;
     let bounded = Bounded::new(o.into(), line.direction.into(), radius_squared);
@@ -190,7 +197,7 @@ fn from_afar(setting: &Setting, &Chord { h, power, .. }: &Chord<f64>) -> Nearest
 fn both_again(sphere: &Sphere, ray: &Ray, line: &Line) -> Option<[f64; 2]> {
     let setting = Setting::new(sphere, ray);
     let chord = setting.chord::<Quadratic>();
-    let roots = if chord.distance_squared > NEAR * setting.radius_squared {
+    let roots = if exceeds(chord.distance_squared, NEAR, setting.radius_squared) {
         match half_chord_from_afar(&setting) {
             Verdict::Miss => return None,
             Verdict::Hit(half_chord) => Both::from_half_chord(&chord, half_chord),
@@ -209,41 +216,59 @@ fn both_again(sphere: &Sphere, ray: &Ray, line: &Line) -> Option<[f64; 2]> {
     both_carefully(line, Format::F32)
 }
 
+/// The nearest hit.
+// Inlined always: so that what a caller does not use of the hit is not computed.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
+fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
+    let setting = Setting::new(sphere, ray);
+    let chord = setting.chord::<D>();
+    match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, || None) {
+        Nearest::Miss => return None,
+        Nearest::Root { t, .. } => {
+            let rounded = t as f32;
+            // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
+            if rounds_safely::<MARGIN>(t) && rounded >= range.start && rounded >= f32::MIN_POSITIVE
+            {
+                if rounded >= range.end || range.end.is_nan() {
+                    return None;
+                }
+                // The two apart, so that the compiler need not keep what one of them does without.
+                return if exceeds(chord.distance_squared, NEAR, setting.radius_squared) {
+                    let found = setting.found_from_afar(&chord, rounded);
+                    Some(hit(setting.line, found))
+                } else {
+                    Some(hit(setting.line, setting.found(t, rounded)))
+                };
+            }
+        }
+        Nearest::Doubt => {}
+    }
+    let found = nearest_again(sphere, ray, &Line::new(sphere, ray), range)?;
+    Some(hit(setting.line, found))
+}
+
+/// The same by a call: where `f64` is software, that costs next to nothing, and copies of the plain step much.
+#[inline(never)]
+fn intersect_by_a_call<D: Derivation>(
+    sphere: &Sphere,
+    ray: &Ray,
+    range: Range<f32>,
+) -> Option<Hit> {
+    intersect::<D>(sphere, ray, range)
+}
+
 impl Precision for Vec3 {
     const UNIT_ULP: f64 = f32::EPSILON as f64;
     const LEAST_POSITIVE: f64 = f32::from_bits(1) as f64;
 
-    // Inlined always: so that what a caller does not use of the hit is not computed.
     #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
     fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
-        let setting = Setting::new(sphere, ray);
-        let chord = setting.chord::<D>();
-        match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, || None) {
-            Nearest::Miss => return None,
-            Nearest::Root { t, half_chord } => {
-                let rounded = t as f32;
-                // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
-                if rounds_safely::<MARGIN>(t)
-                    && rounded >= range.start
-                    && rounded >= f32::MIN_POSITIVE
-                {
-                    if rounded >= range.end || range.end.is_nan() {
-                        return None;
-                    }
-                    // The two apart, so that the compiler need not keep what one of them does without.
-                    return if chord.distance_squared > NEAR * setting.radius_squared {
-                        let found = setting.found_from_afar(chord.a, rounded, half_chord);
-                        Some(hit(setting.line, found))
-                    } else {
-                        Some(hit(setting.line, setting.found(t, rounded)))
-                    };
-                }
-            }
-            Nearest::Doubt => {}
+        if HAS_F64 {
+            intersect::<D>(sphere, ray, range)
+        } else {
+            intersect_by_a_call::<D>(sphere, ray, range)
         }
-        let found = nearest_again(sphere, ray, &Line::new(sphere, ray), range)?;
-        Some(hit(setting.line, found))
     }
 
     #[inline(always)]

@@ -37,6 +37,7 @@
 //! ```
 
 use super::chord::Chord;
+use crate::arithmetic::comparison::{exceeds, is_not_positive, product_exceeds};
 use crate::arithmetic::pair::U;
 use crate::float::sqrt;
 
@@ -82,8 +83,8 @@ pub(super) enum Nearest {
 /// power is too small beside m, as close to the surface: with s (|h| + s) > clear a m, the discriminant and h err by no more than
 /// in the other cases, and where such a power is more than 2⁻⁴⁰ m, it errs by 2⁻³⁶ of itself: little where `clear` is at most 2⁻¹⁵.
 ///
-/// A NaN or an infinity anywhere ends in doubt: none of the comparisons holds then. So does a zero direction. A negative
-/// radius, given as a negative square, is a miss or ends in doubt.
+/// A NaN or an infinity anywhere ends in a root that is infinite or NaN, in a miss or in doubt, and so does a zero direction. A
+/// negative radius, given as a negative square, is a miss or ends in doubt.
 #[inline(always)]
 pub(super) fn nearest_ahead(
     chord: &Chord<f64>,
@@ -93,18 +94,18 @@ pub(super) fn nearest_ahead(
 ) -> Nearest {
     let Chord { a, h, distance_squared, power, discriminant } = *chord;
     let is_fine = |power: f64, larger: f64| power.abs() > FINE_POWER * larger;
-    if power > SURE_SIGN * distance_squared {
+    if exceeds(power, SURE_SIGN, distance_squared) {
         // Outside: both roots lie on the side of the closest approach. If h is above zero in truth, then by less than its error,
         // h² < 16 u² a o·o, far below a power > u a o·o, and the line misses.
-        let doubtful = SURE_MISS * (a * distance_squared);
-        if h <= 0.0 || discriminant < -doubtful {
+        let is_negative = || discriminant < -SURE_MISS * (a * distance_squared);
+        if is_not_positive(h) || (is_not_positive(discriminant) && is_negative()) {
             return Nearest::Miss;
         }
         // The nearer root, (h - s) / a, without its cancellation: the product of the roots is power / a.
         let half_chord = sqrt(discriminant);
         let sum = h + half_chord;
         let t = power / sum;
-        if half_chord * t > clear * distance_squared {
+        if product_exceeds([half_chord, t], clear, distance_squared) {
             return Nearest::Root { t, half_chord };
         }
         if half_chord * sum > clear * (a * distance_squared) {
@@ -114,15 +115,16 @@ pub(super) fn nearest_ahead(
                 }
             }
         }
-    } else if power < -SURE_SIGN * radius_squared {
+    } else if exceeds(-power, SURE_SIGN, radius_squared) {
         // Inside: one root lies ahead, (h + s) / a, and it cancels where the center is behind.
         let half_chord = sqrt(discriminant);
         let sum = h.abs() + half_chord;
-        let t = if h > 0.0 { sum / a } else { -power / sum };
-        if half_chord * t > clear * radius_squared {
+        let t = if is_not_positive(h) { -power / sum } else { sum / a };
+        if product_exceeds([half_chord, t], clear, radius_squared) {
             return Nearest::Root { t, half_chord: -half_chord };
         }
-        if half_chord * sum > clear * (a * radius_squared) {
+        // Before the center, the sum is clear of doubt or the half-chord is not.
+        if is_not_positive(h) && half_chord * sum > clear * (a * radius_squared) {
             if let Some(power) = fine_power() {
                 if is_fine(power, radius_squared) {
                     return Nearest::Root { t: -power / sum, half_chord: -half_chord };
@@ -159,7 +161,8 @@ impl Both {
     }
 }
 
-/// Finds both roots of a chord in plain `f64`. What [`nearest_ahead`] says of a finer power and of odd arguments holds here too.
+/// Finds both roots of a chord in plain `f64`. What [`nearest_ahead`] says of a finer power holds here too. A NaN or an infinity
+/// anywhere, a zero direction and a negative radius end in a miss or in doubt.
 #[inline(always)]
 pub(super) fn both(
     chord: &Chord<f64>,
