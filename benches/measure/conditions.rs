@@ -1,4 +1,4 @@
-//! Where a table was made.
+//! The machine, the compiler and the flags that a table was measured with.
 
 use std::process::Command;
 use std::{env, fs};
