@@ -33,7 +33,7 @@ fn double_precision() {
     check::<DVec3>();
 }
 
-/// What became of spawned rays.
+/// The results of spawned rays.
 #[derive(Debug, Default)]
 struct Tally {
     outwards: u64,

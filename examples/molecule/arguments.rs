@@ -8,7 +8,7 @@ use lexopt::prelude::{Long, Short};
 pub(crate) const USAGE: &str = "usage: molecule [--pick X,Y] [--beside-textbook] [--distance RADII] [--zoom FACTOR] \
 [--width 1..16384] [--height 1..16384] [--output FILE.png]";
 
-/// What the command line asks for.
+/// A parsed command line.
 pub(crate) enum Request {
     Help,
     Run(Arguments),

@@ -16,8 +16,8 @@
 //! `--beside-textbook` draws in the right half, it does: the discriminant is the difference of two large numbers, and the
 //! farther the eye, the fewer correct digits are left in it.
 //!
-//! The crate makes the eye rays ([`eyeray::Camera::rays`]), finds the atoms ([`eyeray::SphereBvh`]), takes a pixel of the mouse to
-//! the atom below it ([`eyeray::Camera::pixel_ray`]), and an atom to the pixel at which its label belongs
+//! The crate creates the eye rays ([`eyeray::Camera::rays`]), finds the atoms that they hit ([`eyeray::SphereBvh`]), creates the ray
+//! of the mouse's pixel for picking ([`eyeray::Camera::pixel_ray`]), and projects an atom to the pixel of its label
 //! ([`eyeray::Camera::project_to_pixel`]).
 
 mod arguments;
@@ -75,7 +75,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Says what is seen at a pixel.
+/// Prints which atom is seen at a pixel.
 fn describe(viewer: &Viewer, pixel: Vec2) -> String {
     match viewer.pick(pixel) {
         Some((index, hit)) => {

@@ -10,7 +10,7 @@ use crate::scene::View;
 pub(crate) const USAGE: &str = "usage: render [--camera perspective|orthographic] \
 [--width 1..16384] [--height 1..16384] [--samples 1..65535] [--output FILE.png]";
 
-/// What the command line asks for.
+/// A parsed command line.
 pub(crate) enum Request {
     Help,
     Render(Arguments),

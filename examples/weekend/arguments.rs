@@ -10,7 +10,7 @@ use crate::objects::Kind;
 pub(crate) const USAGE: &str = "usage: weekend [--width 1..16384] [--height 1..16384] [--samples 1..65535] \
 [--objects slice|boxes|spheres|bvh] [--output FILE.png]";
 
-/// What the command line asks for.
+/// A parsed command line.
 pub(crate) enum Request {
     Help,
     Render(Arguments),

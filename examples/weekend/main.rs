@@ -22,8 +22,8 @@
 //! | `camera::get_ray` | [`eyeray::Camera::pixel_ray`]; the lens is in `lens.rs` |
 //! | the `t` of at least 0.001 against shadow acne | nothing: [`eyeray::Hit::spawn`] starts a ray clear of the surface |
 //!
-//! The materials, the colors and the numbers of the scene are the book's. `--objects` chooses what the spheres are kept in; the
-//! picture is the same, byte for byte, with all four, and with any number of threads (`RAYON_NUM_THREADS`).
+//! The materials, the colors and the numbers of the scene are the book's. `--objects` chooses the collection of the spheres. The
+//! picture is the same, byte for byte, with all four of them, and with any number of threads (`RAYON_NUM_THREADS`).
 //!
 //! [Ray Tracing in One Weekend]: https://raytracing.github.io/books/RayTracingInOneWeekend.html
 

@@ -5,7 +5,7 @@ use lexopt::prelude::{Long, Short};
 
 pub(crate) const USAGE: &str = "usage: many_spheres [--largest 100..1000000] [--rays 2..10000000]";
 
-/// What the command line asks for.
+/// A parsed command line.
 pub(crate) enum Request {
     Help,
     Measure(Arguments),

@@ -1,5 +1,5 @@
-//! Which of 100 to 1,000,000 spheres a ray meets first, by [`eyeray::SphereBvh`], and what that costs, beside a scan of them all
-//! ([`eyeray::Spheres`]), a hierarchy by the crate obvhs, and Embree.
+//! The nearest hit among 100 to 1,000,000 spheres by [`eyeray::SphereBvh`], and the time that it takes, beside a scan
+//! ([`eyeray::Spheres`]), a hierarchy of the crate obvhs, and Embree.
 //!
 //! ```text
 //! cargo run --release --manifest-path examples/many_spheres/Cargo.toml
@@ -40,13 +40,13 @@ fn main() -> ExitCode {
     }
 }
 
-/// Prints the message. That nobody listens, as at the end of a closed pipe, is no error.
+/// Prints the message. A closed pipe is no error.
 fn tell(mut to: impl Write, message: &str, code: ExitCode) -> ExitCode {
     let _ = writeln!(to, "{message}");
     code
 }
 
-/// Measures all sizes, printing each as it is done, and says from where on `SphereBvh` is faster than the scan.
+/// Measures all sizes, prints each when it is done, and then from which size on `SphereBvh` is faster than the scan.
 fn run(arguments: &Arguments) -> Result<String, String> {
     let eye_rays =
         cloud::eye_rays(arguments.rays / 2).map_err(|error| format!("no such camera: {error}"))?;
@@ -86,7 +86,7 @@ fn print_row(count: &str, cells: [String; 6]) {
     tell(stdout(), &row, ExitCode::SUCCESS);
 }
 
-/// What was measured of one cloud: nanoseconds a ray.
+/// The measurements of one cloud: nanoseconds a ray.
 struct Row {
     scan: f64,
     bvh: f64,
