@@ -58,7 +58,7 @@ impl<V: Vector> Hit<V> {
     ///     fn intersect(&self, ray: &Ray, range: Range<f32>) -> Option<Hit> {
     ///         let t = -ray.origin.y / ray.direction.y;
     ///         let point = ray.at(t).with_y(0.0);
-    ///         // A hit is ahead, whatever the range, and finite, unlike that of a ray along the floor.
+    ///         // A hit is ahead, whatever the range, and finite: a ray along the floor has none.
     ///         let is_hit = t > 0.0 && range.contains(&t) && point.is_finite();
     ///         is_hit.then(|| Hit::new(t, point, Vec3::Y, 0.0))
     ///     }
@@ -67,7 +67,7 @@ impl<V: Vector> Hit<V> {
     /// let ray = Ray::new(Vec3::Y, Vec3::NEG_Y);
     /// assert_eq!(Floor.intersect(&ray, 0.0..2.0).map(|hit| hit.t), Some(1.0));
     ///
-    /// // The floor is behind a ray that points away from it, and a ray that starts on it does not hit it.
+    /// // A ray that points away from the floor does not hit it, nor one that starts on it.
     /// let (up, leaving) = (Ray::new(Vec3::Y, Vec3::Y), Ray::new(Vec3::ZERO, Vec3::Y));
     /// assert!([up, leaving].iter().all(|ray| !Floor.occludes(ray, -2.0..2.0)));
     /// ```

@@ -20,11 +20,11 @@ use crate::{Hit, Ray, Vector};
 /// let far = Sphere::new(vec3(0.0, 0.0, -9.0), 1.0);
 /// let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
 ///
-/// // A slice of hittable things is hittable, and so is an array, a `Vec`, a reference, a `Box`, an `Rc` or an `Arc`.
+/// // Slices, arrays, `Vec`, references, `Box`, `Rc` and `Arc` are hittable as their content is.
 /// let scene: &dyn Hittable = &[far, near];
 /// assert_eq!(scene.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(2.0));
 ///
-/// // For a shadow ray it is enough to know whether there is a hit: here none up to t = 1, and one up to t = 3.
+/// // For a shadow ray, whether there is a hit is enough: none up to t = 1, one up to t = 3.
 /// assert!(!scene.occludes(&ray, 0.0..1.0));
 /// assert!(scene.occludes(&ray, 0.0..3.0));
 /// ```

@@ -21,7 +21,7 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 /// let sphere = Sphere::new(vec3(0.0, 0.0, -4.0), 1.0);
 /// let ray = Ray::new(Vec3::ZERO, vec3(0.0, 0.0, -2.0));
 ///
-/// // The ray enters at z = -3, one and a half lengths of its direction away, and leaves at z = -5.
+/// // The ray enters at z = -3, 1.5 lengths of its direction away, and leaves at z = -5.
 /// assert_eq!(sphere.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(1.5));
 /// assert_eq!(sphere.roots_algebraic(&ray), Some([1.5, 2.5]));
 /// assert_eq!(sphere.roots_geometric(&ray), Some([1.5, 2.5]));

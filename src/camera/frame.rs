@@ -105,7 +105,7 @@ impl<V: Vector> Frame<V> {
     /// let frame = Frame::look_to(eye, forward, Vec3::Y)?;
     /// assert_eq!(frame.basis(), [vec3(0.8, 0.0, 0.6), Vec3::Y, vec3(-0.6, 0.0, 0.8)]);
     ///
-    /// // Between 1e8 and 1e8 + 8, `f32` has no numbers: a target made by addition would lie along -Z.
+    /// // The `f32` after 1e8 is 1e8 + 8: a target computed by addition would be along -Z.
     /// assert_eq!(eye + forward, vec3(1e8, 0.0, -0.8));
     /// # Ok(())
     /// # }

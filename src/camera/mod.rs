@@ -90,7 +90,7 @@ use pixels::Axis;
 /// use eyeray::{Camera, Ray};
 /// use glam::{Vec2, Vec3};
 ///
-/// /// Returns the ray of a pixel through the point `lens` of the lens, along U and V from its center.
+/// /// Returns the ray of a pixel that starts at the point `lens` of the lens, along U and V.
 /// fn lens_ray(camera: &Camera, pixel: Vec2, width: u32, height: u32, lens: Vec2) -> Ray {
 ///     let Ray { origin, direction } = camera.pixel_ray(pixel, width, height);
 ///     let [u, v, _] = camera.basis();
