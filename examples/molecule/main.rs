@@ -21,6 +21,8 @@
 //! ([`eyeray::Camera::project_to_pixel`]).
 
 mod arguments;
+#[path = "../shared/command_line.rs"]
+mod command_line;
 mod crystal;
 mod picture;
 mod textbook;
@@ -29,35 +31,19 @@ mod viewer;
 use std::error::Error;
 use std::process::ExitCode;
 
-use arguments::{Arguments, Request, USAGE};
+use arguments::{Arguments, USAGE};
 use glam::Vec2;
 use viewer::Viewer;
 
 fn main() -> ExitCode {
-    match arguments::parse(lexopt::Parser::from_env()) {
-        Ok(Request::Help) => {
-            println!("{USAGE}");
-            ExitCode::SUCCESS
-        }
-        Ok(Request::Run(arguments)) => match run(&arguments) {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(error) => {
-                eprintln!("molecule: {error}");
-                ExitCode::FAILURE
-            }
-        },
-        Err(error) => {
-            eprintln!("molecule: {error}\n{USAGE}");
-            ExitCode::from(2)
-        }
-    }
+    command_line::run("molecule", USAGE, arguments::parse, run)
 }
 
-fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+/// Draws the picture, or picks an atom.
+fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     let viewer = Viewer::new(crystal::atoms(), arguments)?;
     if let Some([x, y]) = arguments.pick {
-        println!("{}", describe(&viewer, Vec2::new(x, y)));
-        return Ok(());
+        return Ok(describe(&viewer, Vec2::new(x, y)));
     }
     let picture = if arguments.beside_textbook {
         let ours = viewer.picture(|ray| viewer.nearest(ray));
@@ -71,11 +57,10 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         picture
     };
     picture.save(&arguments.output)?;
-    println!("{}: {} atoms", arguments.output.display(), viewer.atoms().len());
-    Ok(())
+    Ok(format!("{}: {} atoms", arguments.output.display(), viewer.atoms().len()))
 }
 
-/// Prints which atom is seen at a pixel.
+/// Describes the atom that is seen at a pixel.
 fn describe(viewer: &Viewer, pixel: Vec2) -> String {
     match viewer.pick(pixel) {
         Some((index, hit)) => {

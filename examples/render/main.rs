@@ -16,6 +16,8 @@
 //! epsilon to tune: each range begins at 0, and no surface shadows itself.
 
 mod arguments;
+#[path = "../shared/command_line.rs"]
+mod command_line;
 mod material;
 mod path;
 mod picture;
@@ -24,32 +26,18 @@ mod scene;
 
 use std::error::Error;
 use std::fs::File;
-use std::io::{Write, stderr, stdout};
 use std::process::ExitCode;
 use std::time::Instant;
 
-use arguments::{Arguments, Request, USAGE};
+use arguments::{Arguments, USAGE};
 use scene::Scene;
 
 fn main() -> ExitCode {
-    match arguments::parse(lexopt::Parser::from_env()) {
-        Ok(Request::Help) => tell(stdout(), USAGE, ExitCode::SUCCESS),
-        Ok(Request::Render(arguments)) => match run(&arguments) {
-            Ok(summary) => tell(stdout(), &summary, ExitCode::SUCCESS),
-            Err(message) => tell(stderr(), &format!("render: {message}"), ExitCode::FAILURE),
-        },
-        Err(error) => tell(stderr(), &format!("render: {error}\n{USAGE}"), ExitCode::from(2)),
-    }
-}
-
-/// Prints the message. A closed pipe is no error.
-fn tell(mut to: impl Write, message: &str, code: ExitCode) -> ExitCode {
-    let _ = writeln!(to, "{message}");
-    code
+    command_line::run("render", USAGE, arguments::parse, run)
 }
 
 /// Renders the picture into its file, and prints what was done.
-fn run(arguments: &Arguments) -> Result<String, String> {
+fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     let Arguments { view, width, height, samples, output } = arguments;
     let cannot_write =
         |error: &dyn Error| format!("cannot write \"{}\": {error}", output.display());

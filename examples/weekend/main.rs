@@ -28,6 +28,8 @@
 //! [Ray Tracing in One Weekend]: https://raytracing.github.io/books/RayTracingInOneWeekend.html
 
 mod arguments;
+#[path = "../shared/command_line.rs"]
+mod command_line;
 mod lens;
 mod material;
 mod objects;
@@ -39,33 +41,17 @@ use std::error::Error;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use arguments::{Arguments, Request, USAGE};
+use arguments::{Arguments, USAGE};
 use lens::Lens;
 use objects::Objects;
 use scene::Scene;
 
 fn main() -> ExitCode {
-    match arguments::parse(lexopt::Parser::from_env()) {
-        Ok(Request::Help) => {
-            println!("{USAGE}");
-            ExitCode::SUCCESS
-        }
-        Ok(Request::Render(arguments)) => match render(&arguments) {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(error) => {
-                eprintln!("weekend: {error}");
-                ExitCode::FAILURE
-            }
-        },
-        Err(error) => {
-            eprintln!("weekend: {error}\n{USAGE}");
-            ExitCode::from(2)
-        }
-    }
+    command_line::run("weekend", USAGE, arguments::parse, render)
 }
 
-/// Renders the scene into the file that the command line names, and says how long it took.
-fn render(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+/// Renders the scene into the file that the command line names, and returns how long it took.
+fn render(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     let Arguments { width, height, samples, kind, ref output } = *arguments;
     let lens = Lens::new(width, height)?;
     let Scene { spheres, materials } = Scene::new();
@@ -77,9 +63,8 @@ fn render(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let seconds = start.elapsed().as_secs_f64();
 
     picture::write_png(output, width, height, &pixels)?;
-    println!(
+    Ok(format!(
         "{}: {width} x {height}, {samples} samples a pixel, {count} spheres as {kind}, {seconds:.1} s",
         output.display()
-    );
-    Ok(())
+    ))
 }
