@@ -3,7 +3,7 @@
 //! ```text
 //! cargo bench --bench speed_vs_error                  # in about a minute
 //! cargo bench --bench speed_vs_error -- --quick       # for a first impression, in some seconds
-//! cargo bench --bench speed_vs_error -- --prices      # only the times of eyeray's, in multiples of the textbook's
+//! cargo bench --bench speed_vs_error -- --prices      # only eyeray's times, in multiples of the textbook's
 //! cargo bench --bench speed_vs_error -- --refresh     # five times the cases, and the copies in benches/report/
 //! RUSTFLAGS="-C target-cpu=x86-64-v3" cargo bench --bench speed_vs_error -- --prices     # with FMA
 //! ```

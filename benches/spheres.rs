@@ -13,6 +13,7 @@
 //! for each sphere in turn, the nearest so far as the range's end, and the point and the normal of the nearest at last.
 #![allow(missing_docs, reason = "criterion's macros make public functions")]
 
+use std::fmt::Write as _;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -31,6 +32,8 @@ mod scene;
 #[path = "../tests/support/mod.rs"]
 mod support;
 
+use measure::arguments::Effort;
+use measure::page;
 use measure::timing::{self, PassOver, Regime};
 use methods::single::{ahead, parry_nearest, textbook};
 use scene::View;
@@ -158,17 +161,22 @@ const SCAN: usize = 3;
 
 const COUNTS: [usize; 7] = [1, 2, 4, 8, 46, 1024, 65_536];
 
-/// Prints how the passes compare with the formulas, and with what the machine could do at best.
-fn print_ratios(rounds: usize) {
+/// How the passes compare with the formulas, and with what the machine could do at best.
+fn ratios(rounds: usize) -> String {
+    let mut text = String::new();
     let passes = passes();
-    println!("nanoseconds a ray, and how many times as fast as the faster formula\n");
-    print!("{:>8}", "spheres");
-    for (name, _) in &passes {
-        print!("{name:>19}");
-    }
-    println!();
-    let turns: Vec<_> = passes.iter().map(|(_, pass)| pass).collect();
     let (lanes, least) = lanes();
+    let _ = writeln!(
+        text,
+        "Nearest hit of one f32 ray among spheres, `Spheres` by {lanes}: nanoseconds a ray, and how many times as fast as the \
+faster formula.\n"
+    );
+    let _ = write!(text, "{:>8}", "spheres");
+    for (name, _) in &passes {
+        let _ = write!(text, "{name:>19}");
+    }
+    let _ = writeln!(text);
+    let turns: Vec<_> = passes.iter().map(|(_, pass)| pass).collect();
     let mut scanned = Vec::new();
     for count in COUNTS {
         let scene = Scene::new(count);
@@ -176,26 +184,27 @@ fn print_ratios(rounds: usize) {
         let regime = Regime { cases: rays, warm_up: 0, timed: 1, rounds };
         let medians = timing::medians(&turns, &scene, rays, regime);
         let formula = medians[0].min(medians[1]);
-        print!("{count:>8}");
+        let _ = write!(text, "{count:>8}");
         for time in &medians {
-            print!("{time:>11.1} ({:>4.1}x)", formula / time);
+            let _ = write!(text, "{time:>11.1} ({:>4.1}x)", formula / time);
         }
-        println!();
+        let _ = writeln!(text);
         scanned.push((count, medians[SCAN]));
     }
 
     let gigahertz = cycles_a_nanosecond();
-    println!(
+    let _ = writeln!(
+        text,
         "\n`Spheres`: nanoseconds a sphere, and how many times the least, at {gigahertz:.2} GHz\n"
     );
     let least = least / gigahertz;
-    println!("{:>8}{:>19}", "spheres", format!("{lanes}, {least:.3}"));
+    let _ = writeln!(text, "{:>8}{:>19}", "spheres", format!("{lanes}, {least:.3}"));
     for (count, time) in scanned {
         #[expect(clippy::cast_precision_loss, reason = "counts are small")]
         let a_sphere = time / count as f64;
-        println!("{count:>8}{a_sphere:>11.3} ({:>4.1}x)", a_sphere / least);
+        let _ = writeln!(text, "{count:>8}{a_sphere:>11.3} ({:>4.1}x)", a_sphere / least);
     }
-    println!();
+    text
 }
 
 /// The instructions that `Spheres` uses, and the least time that they could take for a sphere, in cycles, if a core starts two
@@ -259,9 +268,10 @@ criterion_group! {
     targets = estimates
 }
 
-fn main() {
+fn main() -> std::io::Result<()> {
     let once = std::env::args().any(|argument| argument == "--test");
-    print_ratios(if once { 1 } else { 101 });
+    let ratios = ratios(if once { 1 } else { 101 });
     benches();
     Criterion::default().configure_from_args().final_summary();
+    page::finish("spheres", if once { Effort::Test } else { Effort::Usual }, &ratios)
 }

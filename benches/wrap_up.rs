@@ -1,6 +1,6 @@
 //! The page that a whole `cargo bench` ends with.
 //!
-//! Cargo runs the benches in the order of their names: this is the last, and prints what those before it have left.
+//! Cargo runs the benches in the order of their names. This is the last, and prints the summaries that the others have left.
 
 mod measure;
 mod methods;

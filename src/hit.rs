@@ -1,10 +1,12 @@
-//! Where a ray meets a surface, and the rays that leave from there.
+//! The hit: where a ray meets a surface, and the rays that leave from there.
 
 use glam::DVec3;
 
 use crate::{Ray, Scalar, Vector};
 
-/// Where a ray meets a surface.
+/// A hit of a ray on a surface: the distance, the point and the normal.
+///
+/// [`Hittable::intersect`](crate::Hittable::intersect) returns it, and [`spawn`](Self::spawn) creates the rays that leave from it.
 ///
 /// ```
 /// use eyeray::{Hittable, Ray, Sphere};
@@ -19,7 +21,7 @@ use crate::{Ray, Scalar, Vector};
 ///     assert_eq!(hit.normal, vec3(0.0, 0.0, 1.0));
 ///     assert!(hit.front_face(&ray));
 ///
-///     // A mirror image of the ray leaves for good: nothing to tune.
+///     // The reflected ray does not hit the sphere again, with no epsilon to tune.
 ///     let reflected = hit.spawn(ray.direction.reflect(hit.normal));
 ///     assert!(sphere.intersect(&reflected, 0.0..f32::INFINITY).is_none());
 /// }
@@ -27,21 +29,22 @@ use crate::{Ray, Scalar, Vector};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hit<V: Vector = glam::Vec3> {
-    /// How far along the ray, in lengths of its direction.
+    /// The distance along the ray, in lengths of its direction.
     pub t: V::Scalar,
-    /// The point of the surface.
+    /// The point of intersection.
     pub point: V,
-    /// The outward unit normal there, whichever side the ray comes from.
+    /// The outward unit normal at the point, also if the ray comes from inside.
     pub normal: V,
-    /// How far off the point may be besides the rounding of its coordinates.
+    /// A bound on the error of the point, without the final rounding of its coordinates.
     pub(crate) error: V::Scalar,
 }
 
 impl<V: Vector> Hit<V> {
-    /// Creates a hit on a surface of your own.
+    /// Creates a hit, for an implementation of [`Hittable`](crate::Hittable).
     ///
-    /// `error` is how far off `point` may be besides the rounding of its coordinates. The rays of [`spawn`](Self::spawn) start at
-    /// that distance along the normal and a few ulp of the point more, so that they start on the side that they leave to.
+    /// `error` is a bound on the distance of `point` from the surface, without the final rounding of its coordinates. The rays of
+    /// [`spawn`](Self::spawn) start at the distance `error` plus a few ulp from `point`, along the normal, so that they start on the
+    /// side to which they leave.
     ///
     /// ```
     /// use core::ops::Range;
@@ -55,7 +58,7 @@ impl<V: Vector> Hit<V> {
     ///     fn intersect(&self, ray: &Ray, range: Range<f32>) -> Option<Hit> {
     ///         let t = -ray.origin.y / ray.direction.y;
     ///         let point = ray.at(t).with_y(0.0);
-    ///         // Ahead, whatever the range says, and finite: not along the floor.
+    ///         // A hit is ahead, whatever the range, and finite: a ray along the floor has none.
     ///         let is_hit = t > 0.0 && range.contains(&t) && point.is_finite();
     ///         is_hit.then(|| Hit::new(t, point, Vec3::Y, 0.0))
     ///     }
@@ -64,7 +67,7 @@ impl<V: Vector> Hit<V> {
     /// let ray = Ray::new(Vec3::Y, Vec3::NEG_Y);
     /// assert_eq!(Floor.intersect(&ray, 0.0..2.0).map(|hit| hit.t), Some(1.0));
     ///
-    /// // It lies behind this ray, which looks up, and that one leaves it.
+    /// // A ray that points away from the floor does not hit it, nor one that starts on it.
     /// let (up, leaving) = (Ray::new(Vec3::Y, Vec3::Y), Ray::new(Vec3::ZERO, Vec3::Y));
     /// assert!([up, leaving].iter().all(|ray| !Floor.occludes(ray, -2.0..2.0)));
     /// ```
@@ -80,9 +83,9 @@ impl<V: Vector> Hit<V> {
         self.outwards(ray.direction) < 0.0
     }
 
-    /// Returns whether `direction` points to the outside of the surface here: the side that [`spawn`](Self::spawn) takes.
+    /// Returns whether `direction` points outwards, to the side of the normal.
     ///
-    /// A direction along the surface counts as outward. The sign of the dot product with the normal is computed in `f64`, where it
+    /// This is the side on which [`spawn`](Self::spawn) starts a ray along `direction`. A direction along the surface counts as outward. The sign of the dot product with the normal is computed in `f64`, where it
     /// is not lost to rounding or underflow; use this instead of `direction.dot(hit.normal) > 0.0` to tell reflection from
     /// refraction, or which medium a ray enters.
     ///
@@ -102,9 +105,9 @@ impl<V: Vector> Hit<V> {
         self.outwards(direction) >= 0.0
     }
 
-    /// Returns the distance along the normal at which a ray of [`spawn`](Self::spawn) starts.
+    /// Returns the distance from `point`, along the normal, at which the rays of [`spawn`](Self::spawn) start.
     ///
-    /// It is the error of `point` and 4 ulp of its largest coordinate.
+    /// It is the bound on the error of `point` plus 4 ulp of its largest coordinate.
     #[inline]
     #[must_use]
     pub fn clearance(&self) -> V::Scalar {
@@ -120,7 +123,7 @@ impl<V: Vector> Hit<V> {
     /// Creates a ray that leaves the surface here along `direction`: a reflected, refracted or shadow ray.
     ///
     /// The ray starts at a distance of [`clearance`](Self::clearance) from [`point`](Self::point), outside if the direction
-    /// [is outward](Self::is_outward), else inside. So it does not hit the surface that it leaves by a rounding error
+    /// [is outward](Self::is_outward), otherwise inside. So rounding errors do not make it hit the surface that it leaves
     /// (self-intersection, shadow acne), and its range can begin at 0, with no epsilon to tune.
     ///
     /// # Clearance
@@ -129,9 +132,9 @@ impl<V: Vector> Hit<V> {
     /// that goes inwards starts strictly inside and hits its far wall, if the radius is at least 1,000 ulp of the coordinates of the
     /// point. The clearance follows from the bounds on all rounding errors. It is at most 32 times the sum of an ulp of the largest
     /// coordinate of the point and the smaller of 2⁻³² of the distance travelled and 2⁻²⁴ of the radius, and 2⁻⁴⁷ of the radius more
-    /// (with `DVec3` 2⁻⁶², 2⁻⁵³ and 2⁻¹⁰²). So on a ground of radius 1,000 or on a planet it is as fine as the
-    /// point's own coordinates are. What is closer to the surface than that can be skipped: a ball that touches a ground at
-    /// (100, 0, 0) is skipped by rays that leave the ground within some 10⁻⁴ of the contact.
+    /// (with `DVec3` 2⁻⁶², 2⁻⁵³ and 2⁻¹⁰²). So on a ground of radius 1,000 or on a planet it is a few ulp of
+    /// the point's coordinates. A ray can miss what is closer to the surface than the clearance: rays that leave a ground within some
+    /// 10⁻⁴ of the point (100, 0, 0) can miss a ball that touches the ground there.
     ///
     /// None of this holds where `t` leaves the range of the floats: a radius of 1e-40 hit along a direction of length 1e15 has a
     /// `t` that is rounded to a few bits or to 0, and a radius of 1e37 along a direction of length 1e-20 has none.

@@ -1,4 +1,4 @@
-//! What a ray can meet.
+//! The trait of everything that a ray can hit, and the nearest hit among many objects.
 
 use core::hint::black_box;
 use core::iter;
@@ -7,10 +7,10 @@ use core::ops::Range;
 use crate::rejection::HAS_VECTORS;
 use crate::{Hit, Ray, Vector};
 
-/// Anything that a ray can meet: one sphere, or many, or a shape of your own.
+/// A trait for everything that a ray can hit: a sphere, many spheres, or a shape of your own.
 ///
-/// A range is half open, as everywhere in Rust, and counts in lengths of the ray's direction. Whatever the range, only
-/// `t` > 0 is a hit. `0.0..f32::INFINITY` is the whole half line; a range that is empty, or has a NaN, holds nothing.
+/// Ranges of `t` are half open, as everywhere in Rust, and count in lengths of the ray's direction. Whatever the range, a hit has
+/// `t` > 0. `0.0..f32::INFINITY` is the whole half-line. A range that is empty or has a NaN contains no hit.
 ///
 /// ```
 /// use eyeray::{Hittable, Ray, Sphere};
@@ -20,28 +20,29 @@ use crate::{Hit, Ray, Vector};
 /// let far = Sphere::new(vec3(0.0, 0.0, -9.0), 1.0);
 /// let ray = Ray::new(Vec3::ZERO, Vec3::NEG_Z);
 ///
-/// // A slice of hittable things is hittable, and so is an array, a `Vec`, a reference, a `Box`, an `Rc` or an `Arc`.
+/// // Slices, arrays, `Vec`, references, `Box`, `Rc` and `Arc` are hittable as their content is.
 /// let scene: &dyn Hittable = &[far, near];
 /// assert_eq!(scene.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(2.0));
 ///
-/// // A shadow ray asks only whether anything is in the way: here nothing up to t = 1, and something up to t = 3.
+/// // For a shadow ray, whether there is a hit is enough: none up to t = 1, one up to t = 3.
 /// assert!(!scene.occludes(&ray, 0.0..1.0));
 /// assert!(scene.occludes(&ray, 0.0..3.0));
 /// ```
 ///
-/// # What an implementation owes
+/// # Implementing `Hittable`
 ///
-/// A shape of your own keeps what this crate's spheres keep, for [`nearest`] and the shapes around it pass on what it returns:
+/// [`nearest`] and collections of shapes rely on the following:
 ///
-/// - The `t` of a hit is finite and above 0, whatever the range says, and the range contains it. Else what lies behind a ray, or
-///   where it starts, counts as met.
-/// - The hit is the nearest of those.
-/// - A ray that is not finite or has a zero direction meets nothing, and neither does a range that is empty or has a NaN.
-/// - [`occludes`](Self::occludes) says what [`intersect`](Self::intersect) finds: `true` if and only if there is a hit.
+/// - The `t` of a hit is finite, above 0 and in the range. Otherwise, points behind the ray's origin, or the origin itself, would be
+///   hit.
+/// - It is the hit with the least such `t`.
+/// - A ray that is not finite or has a zero direction hits nothing.
+/// - In a range that is empty or has a NaN, there is no hit.
+/// - [`occludes`](Self::occludes) returns `true` if and only if [`intersect`](Self::intersect) returns a hit.
 ///
 /// [`Hit::new`] has an example.
 pub trait Hittable<V: Vector = glam::Vec3> {
-    /// Returns the nearest hit whose `t`, as it is returned, is above 0 and in `range`; `None` if there is none.
+    /// Returns the nearest hit with `t` > 0 and in `range`, or `None` if there is none.
     ///
     /// To find where the ray leaves a sphere after `hit`, begin the range just above its `t`: at `hit.t.next_up()` or, before Rust
     /// 1.86, at `f32::from_bits(hit.t.to_bits() + 1)`.
@@ -66,13 +67,13 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     #[doc(alias("raycast", "ray_cast", "cast_ray", "trace", "hit"))]
     fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>>;
 
-    /// Returns whether anything is hit with `t` in `range`: what a shadow ray asks.
+    /// Returns whether the ray hits anything with `t` in `range`, for shadow rays and lines of sight.
     ///
-    /// For a point light that is not in the scene, the direction to it has its end at t = 1, and the range is `0.0..1.0`: what is
-    /// behind the light does not count.
+    /// For a point light, which is not an object of the scene, take the vector from the hit to the light for the direction of the
+    /// shadow ray, and `0.0..1.0` for the range: objects behind the light do not count.
     ///
-    /// A lamp that is itself in the scene must not be in its own way. Where a shadow ray hits it is not at t = 1, because the ray
-    /// starts a little off the surface. So the range ends where the ray hits the lamp; being half open, it leaves the lamp out:
+    /// A lamp that is an object of the scene must not occlude itself. The shadow ray does not hit it exactly at t = 1, because the
+    /// ray starts a little off the surface. So let the range end where the ray hits the lamp: a half-open range excludes its end.
     ///
     /// ```
     /// use eyeray::{Hittable, Ray, Sphere};
@@ -82,7 +83,7 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     /// let lamp = Sphere::new(vec3(0.0, 4.0, 0.0), 1.0);
     /// let scene = [ground, lamp];
     ///
-    /// /// Whether light from there reaches the shadow ray's origin.
+    /// /// Returns whether light from the lamp reaches the origin of the shadow ray.
     /// fn is_lit(shadow: &Ray, lamp: &Sphere, scene: &[Sphere]) -> bool {
     ///     let at_lamp = lamp.intersect(shadow, 0.0..f32::INFINITY);
     ///     at_lamp.is_some_and(|at_lamp| !scene.occludes(shadow, 0.0..at_lamp.t))
@@ -102,20 +103,20 @@ pub trait Hittable<V: Vector = glam::Vec3> {
         self.intersect(ray, range).is_some()
     }
 
-    /// Returns `false` only if the ray certainly has no hit with `t` in `range`: a test that costs less than
-    /// [`intersect`](Self::intersect), for many objects of which most are missed.
+    /// Returns `false` only if the ray has no hit with `t` in `range`.
     ///
-    /// [`nearest`] and slices ask it first, and what it returns never changes their answer. Without an implementation it returns
-    /// `true`. A shape that consists of a sphere and more passes the question on to the sphere.
+    /// This rejects most misses at less cost than [`intersect`](Self::intersect). [`nearest`] and slices call it first, which never
+    /// changes what they return. The default implementation returns `true`. A shape that contains a sphere, such as a sphere with a
+    /// material, should forward the call to the sphere.
     #[inline]
     fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         let _ = (ray, range);
         true
     }
 
-    /// Returns which of four objects [may be hit](Self::may_hit), with the bit `1 << i` for `objects[i]`.
+    /// Returns which of four objects [may be hit](Self::may_hit), as a bit mask: bit `1 << i` stands for `objects[i]`.
     ///
-    /// Where a target has vectors of four numbers, [`nearest`] and slices ask four objects at a time.
+    /// On targets with vectors of four numbers, [`nearest`] and slices test four objects at a time.
     #[inline]
     fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32
     where
@@ -129,7 +130,7 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     }
 }
 
-/// What leads to something hittable is hittable as that is.
+/// Implements the trait for containers and pointers, by calls of the content's methods.
 macro_rules! hittable_as_its_content {
     ($([$($parameters:tt)+] $type:ty => $content:ty;)+) => {$(
         impl<V: Vector, $($parameters)+> Hittable<V> for $type {
@@ -185,10 +186,12 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
     }
 }
 
-/// Returns which of `objects` the ray meets first with `t` in `range`, and where: of equal `t`, the lowest index.
+/// Returns the nearest hit among `objects` with `t` in `range`, and the index of the object hit.
 ///
-/// Every object that [may be hit](Hittable::may_hit) is tried in turn. Of spheres in `f32`, `Spheres` and `SphereBvh` (with the feature `alloc`) give the same answer,
-/// few several times as fast and many a thousand times.
+/// Of equal `t`, the lowest index is returned. Each object is tested in turn, first by [`may_hit`](Hittable::may_hit). For spheres in
+/// `f32`, `Spheres` and `SphereBvh` (feature `alloc`) return the same in less time.
+///
+/// Use it for picking: with the [`pixel_ray`](crate::Camera::pixel_ray) of the mouse, the index is that of the object below it.
 ///
 /// ```
 /// use eyeray::{Ray, Sphere, nearest};
@@ -212,7 +215,7 @@ pub fn nearest<V: Vector, H: Hittable<V>>(
     let mut candidates = Candidates::new(objects);
     let mut found = None;
     while let Some((index, object)) = candidates.next(ray, start..end) {
-        // The ray from where the compiler does not know it: what only a hit needs of it is not computed ahead of the loop.
+        // `black_box`, so that what only a hit needs of the ray is not computed ahead of the loop.
         if let Some(hit) = object.intersect(black_box(ray), start..end) {
             // The range is half open: what comes later must be strictly nearer.
             end = hit.t;
@@ -223,7 +226,7 @@ pub fn nearest<V: Vector, H: Hittable<V>>(
     Some((index, hit))
 }
 
-/// The nearest of the objects that `next` gives, by ascending index, each time told where the range ends by now.
+/// The nearest hit among the objects that `next` returns, by ascending index. `next` is told where the range now ends.
 #[cfg(feature = "alloc")]
 #[inline(always)]
 pub(crate) fn nearest_among<'a, V: Vector, H: Hittable<V> + 'a>(
@@ -240,17 +243,17 @@ pub(crate) fn nearest_among<'a, V: Vector, H: Hittable<V> + 'a>(
             found = Some((index, hit));
         }
     }
-    // Taken apart: else it is the caller's memory from the start, and each ray waits until the one before has written there.
+    // Taken apart: otherwise it is in the caller's memory from the start, and each ray waits until the one before has written it.
     let (index, hit) = found?;
     Some((index, hit))
 }
 
-/// The objects that a ray may hit, and perhaps others, by ascending index.
+/// The objects that pass the first test, [`Hittable::may_hit`], by ascending index.
 struct Candidates<'a, H> {
     objects: &'a [H],
-    /// The first that has not been asked.
+    /// The index of the first that has not been tested.
     next: usize,
-    /// Of the four before it, those that may be hit and were not given yet: a bit for each.
+    /// A bit for each of the four before it that has passed and has not been returned yet.
     passed: u32,
 }
 
@@ -260,7 +263,7 @@ impl<'a, H> Candidates<'a, H> {
         Self { objects, next: 0, passed: 0 }
     }
 
-    /// The next one that the ray may hit with t in the range.
+    /// The next object that the ray may hit with t in the range.
     #[inline(always)]
     fn next<V: Vector>(&mut self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<(usize, &'a H)>
     where

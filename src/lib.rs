@@ -68,8 +68,8 @@
 //!   code there in `f32` and 57 kB in both precisions, optimized for size, and 42 kB and 48 kB in WebAssembly
 //!   (`tests/targets/run costs`, in the repository).
 //! - `alloc`: [`Spheres`] and [`SphereBvh`], and [`Hittable`] for `Vec`, `Box`, `Rc` and `Arc`. Implied by `std`.
-//! - `serde`: `Serialize` and `Deserialize` for all data types. A [`Camera`] is validated when it is deserialized. It is read bit for
-//!   bit by a format that reads each `f64` so: `serde_json` needs its feature `float_roundtrip` for that.
+//! - `serde`: `Serialize` and `Deserialize` for all data types. A [`Camera`] is validated when it is deserialized. Formats
+//!   that read each `f64` bit for bit give the same camera back: `serde_json` needs its feature `float_roundtrip` for that.
 //! - `bytemuck`: `Pod` and `Zeroable` for [`Ray`] and [`Sphere`], to upload them to a GPU or read them from a file as bytes.
 //! - `approx-05`: `AbsDiffEq`, `RelativeEq` and `UlpsEq` of approx 0.5, for tests with a tolerance.
 // Without `alloc` these two do not exist, and the links above lead to the documentation with all features.

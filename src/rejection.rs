@@ -1,5 +1,5 @@
-//! Early rejection: whether a ray certainly misses a sphere, in a few operations of the scene's own precision. It may let a sphere
-//! pass that the ray misses; it never rejects one that it hits.
+//! Early rejection: a test in a few operations, in the scene's own precision, of whether a ray misses a sphere. A sphere that the ray
+//! misses may pass the test; a sphere that it hits is never rejected.
 //!
 //! A hit with t in (0, end) is a point of the segment from the ray's origin to `end`. So a sphere is rejected where that segment
 //! stays clear of its ball: where the point of the segment nearest to the center, at t = m, is farther from it than the radius.
@@ -34,16 +34,17 @@
 //!
 //! So r² is made larger by `MARGIN`, 16 u, and T by twice that. The rest is far more than all terms of the second order.
 //!
-//! The last subtraction is compared with a constant, and rounding it makes no difference to that.
+//! The last subtraction is only compared with a constant, which its rounding does not change.
 //!
-//! **Underflow.** Of directions of 2⁻³⁰ to 2⁶⁰ (in `f64`, 2⁻²⁵⁰ to 2⁵⁰⁰), a is a normal number and so is 1 / a. A product that
-//! underflows is off by 2⁻¹⁵⁰ (2⁻¹⁰⁷⁵) more: in h and in a end, that is multiplied by 2 |o| / |d|, and in s / a by 2 |o| |d|,
-//! together below 2⁻⁸⁸ |o| (2⁻⁵⁷³ |o|). Either |o| < 2⁻¹² (2⁻⁴⁰⁰), and that and what is lost of the squares is below `LEAST`, which
-//! the result has to exceed, or it is far below u o·o. For all other rays, 1 / a is taken to be NaN.
+//! **Underflow.** For directions of length 2⁻³⁰ to 2⁶⁰ (in `f64`, 2⁻²⁵⁰ to 2⁵⁰⁰), a and 1 / a are normal numbers. A product that
+//! underflows has an additional error of up to 2⁻¹⁵⁰ (2⁻¹⁰⁷⁵). In h and in a end, this error is multiplied by 2 |o| / |d|, and in
+//! s / a by 2 |o| |d|: together less than 2⁻⁸⁸ |o| (2⁻⁵⁷³ |o|). If |o| < 2⁻¹² (2⁻⁴⁰⁰), this and the errors of the squares are less
+//! than `LEAST`, which the result has to exceed. Otherwise they are far below u o·o. For all other directions, 1 / a is set to NaN,
+//! so that nothing is rejected.
 //!
-//! **Overflow and NaN.** T is never below zero where `end` is above it, so that what overflows in h or T makes the result -∞ or NaN, as
-//! does an infinite radius. What overflows in o·o makes it +∞ or NaN. Only a finite result rejects. Where `end` is not above zero
-//! nothing is hit, and any answer will do. A negative radius passes as its magnitude would: the exact routine knows.
+//! **Overflow and NaN.** T is never negative where `end` is positive. So overflow in h or T makes the result -∞ or NaN, and so does an
+//! infinite radius. Overflow in o·o makes it +∞ or NaN. Only a finite result rejects. Where `end` is not positive there is no hit,
+//! and either answer is right. A negative radius is treated as its absolute value: the exact routine returns no hit.
 
 use glam::{DVec3, Mat4, Vec3, Vec4};
 
@@ -51,13 +52,13 @@ use crate::{Ray, Scalar, Sphere, Vector};
 
 /// The constants of the derivation above in a precision.
 pub trait Bounds: Sized {
-    /// By which part of themselves r², and by twice of which T, is made larger: 16 u.
+    /// The relative increase of r², and half that of T: 16 u.
     const MARGIN: Self;
-    /// What the result has to exceed: more than underflow can take from it.
+    /// The bound that the result has to exceed: more than the errors by underflow.
     const LEAST: Self;
-    /// The least and the largest square of a direction's length.
+    /// The least and the largest square of the length of a direction with which spheres are rejected.
     const SQUARES: [Self; 2];
-    /// What no ray of another length is rejected with.
+    /// NaN, for all other directions.
     const NAN: Self;
 }
 
@@ -206,7 +207,7 @@ fn is_clear<S: Scalar>(clearance: S) -> bool {
     clearance > S::LEAST && clearance < S::INFINITY
 }
 
-/// a, and 1 / a made larger.
+/// a, and 1 / a increased by twice the margin, or NaN for unusual directions.
 #[inline(always)]
 fn squares<V: Vector>(margin: V::Scalar, ray: &Ray<V>) -> [V::Scalar; 2] {
     let a = ray.direction.dot(ray.direction);

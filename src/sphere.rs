@@ -21,7 +21,7 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 /// let sphere = Sphere::new(vec3(0.0, 0.0, -4.0), 1.0);
 /// let ray = Ray::new(Vec3::ZERO, vec3(0.0, 0.0, -2.0));
 ///
-/// // The ray enters at z = -3, one and a half lengths of its direction away, and leaves at z = -5.
+/// // The ray enters at z = -3, 1.5 lengths of its direction away, and leaves at z = -5.
 /// assert_eq!(sphere.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(1.5));
 /// assert_eq!(sphere.roots_algebraic(&ray), Some([1.5, 2.5]));
 /// assert_eq!(sphere.roots_geometric(&ray), Some([1.5, 2.5]));
@@ -32,9 +32,8 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 /// For all finite values of a ray's and a sphere's fields, in `f32` and in `f64`, with t for the exact real root of those values
 /// as they are:
 ///
-/// 1. Hit or miss is never wrong, and each root is t rounded to the nearest number of the format, ties to even: beyond the largest
-///    it is infinite, and below the smallest normal one it is rounded to a subnormal number likewise. So
-///    [`Algebraic`](crate::Algebraic) and [`Geometric`](crate::Geometric) give the same roots, bit for bit, on every machine, with
+/// 1. Hit or miss is never wrong, and each root is t rounded to the nearest number of the format, ties to even, with overflow
+///    to infinity and gradual underflow. So [`Algebraic`](crate::Algebraic) and [`Geometric`](crate::Geometric) give the same roots, bit for bit, on every machine, with
 ///    fused multiply-add or without.
 /// 2. A line that touches the sphere hits it, with two equal roots. A sphere of radius 0 is hit if and only if the line goes
 ///    through its center.
@@ -42,7 +41,7 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 ///    no result is NaN.
 /// 4. The direction need not be unit, and t counts in its lengths: of 2ᵏ times the direction, t is 2⁻ᵏ times as large,
 ///    exactly.
-/// 5. A ray is a half line: a hit is at the smallest root that, as returned, is finite, above 0 and in the range.
+/// 5. A ray is a half-line: a hit is at the smallest root that, as returned, is finite, above 0 and in the range.
 /// 6. Each coordinate of [`Hit::point`] is off by at most 0.51 ulp of itself (1 ulp where it is subnormal or, in `f64`, below 2⁻⁸⁴⁸)
 ///    and the smaller of 2⁻³⁰ of the distance travelled, t times the direction's length, and 2⁻²⁴ of the radius (with `DVec3` 2⁻⁶⁰
 ///    and 2⁻⁵³). [`Hit::normal`] is within 2 ulp of 1 of the outward unit normal there. At radius 0, where there is none, it points
@@ -54,8 +53,8 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 ///
 /// `intersect` uses the quadratic formula, as [`Algebraic`](crate::Algebraic) does, in `f64` and with a bound on its error. Where
 /// that decides the hit, and both ends of the interval around the root round to the same number (Ziv's test), that is the answer.
-/// Otherwise more exact arithmetic takes over, step by step: `f64` with the error of the very case, then pairs of `f64`, and
-/// where pairs cannot tell either, integers.
+/// Otherwise more exact arithmetic takes over, step by step: `f64` with a bound on the error of the case at hand, then pairs of
+/// `f64`, and integers where pairs do not decide either.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C)]

@@ -29,7 +29,7 @@ pub(crate) fn total(terms: impl IntoIterator<Item = Dyadic>) -> Dyadic {
     terms.into_iter().fold(Dyadic::ZERO, |sum, term| &sum + &term)
 }
 
-/// How large the error of a computed value is, as a part of the bound.
+/// The error of a computed value, divided by its bound.
 pub(crate) fn part_of_bound(computed: &Dyadic, exact: &Dyadic, bound: &Dyadic) -> f64 {
     let error = (computed - exact).abs();
     if error.is_zero() {
@@ -39,11 +39,11 @@ pub(crate) fn part_of_bound(computed: &Dyadic, exact: &Dyadic, bound: &Dyadic) -
     error.divided_by(bound, 64).approximately()
 }
 
-/// A type of floats whose neighbors can be asked for.
+/// A type of floats, with the neighbors of a number.
 pub(crate) trait Neighbors: Copy + PartialEq + Debug {
-    /// The number, and twice the largest power of two for infinity.
+    /// The exact value, and twice the largest power of two for infinity.
     fn number(self) -> Dyadic;
-    /// Itself, with the two numbers on either side.
+    /// The number itself and the two on either side.
     fn neighborhood(self) -> [Self; 5];
     /// Whether its last bit is 0.
     fn is_even(self) -> bool;
@@ -158,9 +158,9 @@ impl Random {
     }
 }
 
-/// Climbs to large values of `part`, the part of a bound that the error of a case takes, and gives the largest found.
+/// Searches for the largest value of `part`, the error of a case divided by its bound, by hill climbing, and returns it.
 ///
-/// `part` is `None` of what is no case. Fails where the bound is exceeded.
+/// `part` is `None` for numbers that are no case. Panics if a bound is exceeded.
 pub(crate) fn search<const N: usize>(
     what: &str,
     climbs: u64,
@@ -241,7 +241,7 @@ impl ExactChord {
     }
 }
 
-/// How a ray lies to a sphere.
+/// The position of a ray relative to a sphere.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lie {
     /// The power, in m: positive outside.
@@ -250,7 +250,7 @@ pub(crate) struct Lie {
     pub(crate) discriminant: f64,
 }
 
-/// A center, an origin, a direction and a radius of which all coordinates have many digits, and that lie so, nearly.
+/// The coordinates of center, origin and direction, and the radius: all with many digits, and nearly in that position.
 pub(crate) fn setting(random: &mut Random, lie: Lie) -> [f64; 10] {
     let unit = |random: &mut Random| DVec3::from([0; 3].map(|_| random.float(-2..=0))).normalize();
     let along = unit(random);

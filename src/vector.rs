@@ -9,7 +9,7 @@ use crate::arithmetic::rounding::RoundDown;
 use crate::rejection::{Bounds, Rejection};
 use crate::root::precision::Precision;
 
-/// A glam vector of three dimensions: [`Vec3`] or [`DVec3`].
+/// A glam vector of three dimensions: [`Vec3`](glam::Vec3) or [`DVec3`](glam::DVec3).
 ///
 /// Use it to write a function for both precisions. The trait is sealed, because the contract of this crate is proved for these two
 /// types only.

@@ -1,4 +1,4 @@
-//! From `f32` to `f64` nothing is lost, and back everything is rounded once.
+//! Conversions to `f64` are exact, and those to `f32` round once.
 
 use eyeray::{Hit, Hittable, Ray, Sphere, ViewRect};
 use glam::{DVec3, Vec3, dvec3, vec3};

@@ -1,4 +1,4 @@
-//! What holds hittable things is as hittable as they are.
+//! Slices, arrays, references and pointers are hittable as their content is.
 
 use std::rc::Rc;
 use std::sync::Arc;

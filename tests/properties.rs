@@ -1,4 +1,4 @@
-//! What holds for every ray, sphere and camera.
+//! Properties of all rays, spheres and cameras.
 
 use core::ops::Range;
 
@@ -15,7 +15,7 @@ fn ahead<S: Scalar>() -> Range<S> {
     S::ZERO..S::INFINITY
 }
 
-/// What tests need to know of a precision.
+/// The bounds of a precision.
 trait Precision: Vector {
     /// An ulp of 1. A root is within half of it of the exact one, relative to it.
     const ULP: f64;

@@ -33,7 +33,7 @@ fn double_precision() {
     check::<DVec3>();
 }
 
-/// What became of spawned rays.
+/// The results of spawned rays.
 #[derive(Debug, Default)]
 struct Tally {
     outwards: u64,
@@ -86,13 +86,8 @@ fn tally<V: Precision + Coordinates>(seed: u64) -> Tally {
     let mut rng = Rng::new(seed);
     let mut tally = Tally::default();
     for _ in 0..CASES_PER_SEED {
-        let (sphere, ray) = if rng.coin() {
-            let sphere = sphere::<V>(&mut rng);
-            let ray = towards(&mut rng, &sphere);
-            (sphere, ray)
-        } else {
-            ground(&mut rng)
-        };
+        let on_ground = !rng.coin();
+        let (sphere, ray) = scene::<V>(&mut rng, on_ground);
         let Some(hit) = sphere.intersect(&ray, V::Scalar::ZERO..V::Scalar::INFINITY) else {
             continue;
         };
@@ -129,6 +124,15 @@ fn tally<V: Precision + Coordinates>(seed: u64) -> Tally {
         }
     }
     tally
+}
+
+/// A ground, or any sphere, and a ray towards it.
+fn scene<V: Precision + Coordinates>(rng: &mut Rng, on_ground: bool) -> (Sphere<V>, Ray<V>) {
+    if on_ground {
+        return ground(rng);
+    }
+    let sphere = sphere(rng);
+    (sphere, towards(rng, &sphere))
 }
 
 /// A ground of radius 1e2 to 1e7 with its top near the world's origin, and a ray at it from 0.01 to 1,000 above, or from inside.
@@ -276,13 +280,7 @@ fn directions_in_the_tangent_plane_leave_too() {
     fn check<V: Precision + Coordinates>() {
         let mut rng = Rng::new(0);
         for case in 0..4000 {
-            let (sphere, ray) = if case % 2 == 0 {
-                let sphere = sphere::<V>(&mut rng);
-                let ray = towards(&mut rng, &sphere);
-                (sphere, ray)
-            } else {
-                ground(&mut rng)
-            };
+            let (sphere, ray) = scene::<V>(&mut rng, case % 2 == 1);
             let Some(hit) = sphere.intersect(&ray, V::Scalar::ZERO..V::Scalar::INFINITY) else {
                 continue;
             };

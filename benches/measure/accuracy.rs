@@ -1,4 +1,4 @@
-//! How far methods err from the exact oracle.
+//! The errors of methods, compared with the exact oracle.
 
 use std::cmp::Ordering;
 
@@ -29,13 +29,13 @@ pub struct Tally {
     pub unrounded: u64,
     /// Inputs that are no ray or no sphere: a NaN, an infinity, a zero direction, a negative radius.
     pub invalid: u64,
-    /// Those that were answered with a hit all the same.
+    /// Those for which a hit was returned.
     pub invalid_hits: u64,
-    /// Of the answers where there is a root ahead: how many ulps they are off, in f32 to save room.
+    /// The errors of the answers where there is a root ahead, in ulps; in f32 to save memory.
     errors: Vec<f32>,
 }
 
-/// What a family's row says of a method's errors.
+/// The errors of a method on a family.
 #[derive(Clone, Copy, Debug)]
 pub struct Summary {
     /// The cases that the method promises to answer.
@@ -203,7 +203,7 @@ fn judge_case<'a, V: Measured>(
     }
 }
 
-/// Whether there are a ray and a sphere at all.
+/// Whether the ray and the sphere are valid.
 fn is_valid<V: Measured>(ray: &Ray<V>, sphere: &Sphere<V>) -> bool {
     let finite = |vector: V| Vector::to_f64(vector).is_finite();
     finite(ray.origin)

@@ -1,4 +1,4 @@
-//! What a report is asked on the command line.
+//! The command line of a report.
 
 use std::process;
 
@@ -28,7 +28,7 @@ pub enum Effort {
 }
 
 impl Effort {
-    /// So much of a number of cases.
+    /// The number of cases at this effort.
     pub fn cases(self, full: usize) -> usize {
         match self {
             Self::Full => full,
@@ -56,7 +56,7 @@ impl Arguments {
         })
     }
 
-    /// `cargo bench` gives every program the same arguments: what only criterion knows is not for this one.
+    /// `cargo bench` passes the same arguments to every program, also those that are only for criterion.
     fn parse(program: &str) -> Result<Self, lexopt::Error> {
         let mut arguments = Self { effort: Effort::Usual, prices: false, refresh: false };
         let mut parser = Parser::from_env();

@@ -1,4 +1,4 @@
-//! What one thing costs beside another that does the same.
+//! Comparisons of two functions that do the same.
 
 use super::arguments::Effort;
 use super::price::{self, Predicted};

@@ -1,4 +1,4 @@
-//! Where a table was made.
+//! The machine, the compiler and the flags that a table was measured with.
 
 use std::process::Command;
 use std::{env, fs};
@@ -8,7 +8,8 @@ pub fn line() -> String {
     let (os, architecture) = (env::consts::OS, env::consts::ARCH);
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     let compiler = command("rustc", &["--version"]).unwrap_or_else(|| "an unknown rustc".into());
-    let flags = env::var("RUSTFLAGS").unwrap_or_default();
+    // Those that this was compiled with.
+    let flags = option_env!("RUSTFLAGS").unwrap_or_default();
     let flags =
         if flags.is_empty() { "no RUSTFLAGS".into() } else { format!("RUSTFLAGS=\"{flags}\"") };
     let fused = if cfg!(target_feature = "fma") { "FMA" } else { "no FMA" };

@@ -2,7 +2,7 @@
 
 use crate::support::families::{FAMILIES, Family};
 
-/// Families that err for a like reason.
+/// Families with a similar cause of errors.
 #[derive(Clone, Copy, Debug)]
 pub struct Group {
     pub name: &'static str,

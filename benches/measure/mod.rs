@@ -1,4 +1,4 @@
-//! What a method costs and how far it errs, family by family: the measuring that the reports share.
+//! The time and the error of a method, family by family: what the reports share.
 #![allow(dead_code, unreachable_pub, reason = "each report takes what it needs")]
 
 pub mod accuracy;
@@ -53,7 +53,7 @@ pub fn cases<V: Measured>(family: &Family, seed: u64, count: usize) -> Vec<Case<
     (0..count).map(|_| V::generate(family, &mut rng)).collect()
 }
 
-/// Whose method it is, which the plot shows by color and shape.
+/// The kind of a method, which the plot shows by color and shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Computed in the precision of the inputs.
@@ -75,7 +75,7 @@ pub enum Start {
 /// Whether an answer is promised to a case.
 pub type Promise<V> = fn(&Case<V>, Start) -> bool;
 
-/// A test of each case in a row, whose results are stored one after the other.
+/// A test that is applied to one case after the other, and whose results are stored.
 ///
 /// There is one loop, which calls the test in one place: what is timed is what is judged. A closure that is called in two
 /// places is not inlined into either, and then a call, and an answer by way of memory, is most of a fast test's time.
@@ -107,7 +107,7 @@ impl<V: Measured, T> Test<V, T> {
     }
 }
 
-/// What can take turns in going through cases.
+/// What can be timed over cases, in turns with others.
 pub trait Timed<V: Measured>: Sync {
     fn turn<'a>(&'a self, cases: &'a [Case<V>]) -> Turn<'a>;
 }

@@ -1,6 +1,6 @@
-//! The page that every run of the benches ends with: what was measured, and where the reports lie.
+//! The page that every run of the benches ends with: what was measured, and where the reports are.
 //!
-//! `cargo bench` runs one program after the other. Each ends with its part of the page; the last, `wrap_up`, prints them all.
+//! `cargo bench` runs one program after the other. Each prints its part of the page at its end; the last, `wrap_up`, prints them all.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,21 +9,21 @@ use super::arguments::Effort;
 use super::conditions;
 
 /// The programs in the order of interest.
-const PROGRAMS: [&str; 3] = ["speed_vs_error", "spheres", "throughput"];
+const PROGRAMS: [&str; 4] = ["speed_vs_error", "sphere_slices", "spheres", "throughput"];
 
 /// The file of a program's part.
 const PART: &str = "page.md";
 
-/// Parts that are older are of another run.
+/// Older parts belong to another run.
 const ONE_RUN_SECONDS: u64 = 15 * 60;
 
-/// Where a program leaves its reports.
+/// The directory of a program's reports.
 pub fn directory(program: &str) -> PathBuf {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR"));
     target.parent().unwrap_or(target).join(program)
 }
 
-/// Leaves a program's part of the page beside its reports, and prints it.
+/// Writes a program's part of the page beside its reports, and prints it.
 pub fn finish(program: &str, effort: Effort, part: &str) -> std::io::Result<()> {
     if effort == Effort::Test {
         println!("{program}: each once, untimed");

@@ -1,7 +1,7 @@
 //! Time against worst error, as an SVG.
 //!
 //! Both axes are logarithmic. Beneath the errors, a band of its own holds the methods that are never wrong and correctly
-//! rounded. Every panel has the same axes, and draws the front of the methods than which none is both faster and more
+//! rounded. Every panel has the same axes, and shows the Pareto front: the methods than which no other is both faster and more
 //! accurate. The picture brings its own background, light or dark as the reader prefers.
 
 mod names;
@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use self::names::{Name, text_width};
 use super::Kind;
 
-/// What the picture shows, for those who do not see it.
+/// The description of the picture, as alternative text.
 pub const ALT_TEXT: &str = "Time a test against worst error in ulps, both logarithmic: a panel for each group of \
 families, a named mark for each method, and the Pareto front. The tables give the same figures.";
 

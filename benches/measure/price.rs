@@ -1,4 +1,4 @@
-//! What exactness costs: eyeray's times in multiples of the textbook's on the easy family.
+//! The price of exactness: eyeray's times in multiples of the textbook's on the easy family.
 
 use eyeray::{Algebraic, Geometric, Hit, Hittable};
 use glam::{DVec3, Vec3};
@@ -13,7 +13,7 @@ use crate::support::families::{FAMILIES, Family};
 /// Blocks of cases that are learned and timed one after the other, so that rare cases are among them.
 const BLOCKS: usize = 4;
 
-/// What a test takes where branches are predicted.
+/// The time of a test where branches are predicted.
 #[derive(Clone, Copy, Debug)]
 pub struct Predicted {
     pub nanoseconds: f64,
@@ -56,7 +56,7 @@ fn family_named(name: &str) -> &'static Family {
     FAMILIES.iter().find(|family| family.name == name).expect("it is a family")
 }
 
-/// Families that are to cost alike, and how many times the textbook's time on the easy family at most, in f32 and f64.
+/// Families with the same goal: at most so many times the textbook's time on the easy family, in f32 and in f64.
 struct Goal {
     what: &'static str,
     families: &'static [&'static str],
@@ -87,7 +87,7 @@ const GOALS: [Goal; 11] = [
     },
 ];
 
-/// What no input is to take more than.
+/// The most for all other families.
 const ANY: f64 = 100.0;
 
 fn goal<V: Measured>(family: &str) -> f64 {
@@ -113,7 +113,7 @@ pub struct Prices {
     other: Vec<Price>,
 }
 
-/// What a sphere is asked for, besides the nearest root.
+/// The other functions of a sphere, besides the nearest root.
 pub struct Questions<V: Measured> {
     textbook: Test<V, V::Scalar>,
     algebraic: Test<V, V::Scalar>,

@@ -1,15 +1,15 @@
-//! Times of what takes turns.
+//! Times of functions that take turns.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-/// Goes through all that it is given, with what is timed inlined into its loop.
+/// Passes once over its input, with the function that is timed inlined into the loop.
 pub type PassOver<T> = Box<dyn Fn(&T) + Sync>;
 
-/// Goes through what is its own, with what is timed inlined into its loop.
+/// Passes once over its own input, with the function that is timed inlined into the loop.
 pub type Turn<'a> = Box<dyn FnMut() + 'a>;
 
-/// How cases are gone through.
+/// How many cases, passes and rounds.
 #[derive(Clone, Copy, Debug)]
 pub struct Regime {
     pub cases: usize,
@@ -37,10 +37,10 @@ impl Regime {
     }
 }
 
-/// Passes end after this time, before as while they are timed: of what is so slow, branches are the least.
+/// Warming up and timing each end after this time: for a function that takes so long, the prediction of branches matters little.
 const LONG: Duration = Duration::from_millis(3);
 
-/// The nanoseconds that each pass takes for one of `count`: the median of rounds in each of which every one takes its turn.
+/// The nanoseconds that each pass takes for one of `count` inputs: the median of rounds in which the passes take turns.
 pub fn medians<T: ?Sized>(
     passes: &[&PassOver<T>],
     input: &T,
@@ -51,7 +51,7 @@ pub fn medians<T: ?Sized>(
     medians_of_turns(turns.collect(), count, regime)
 }
 
-/// The nanoseconds that each takes for one of `count`: the median of rounds in each of which every one takes its turn.
+/// The nanoseconds that each takes for one of `count` inputs: the median of rounds in which they take turns.
 pub fn medians_of_turns(mut turns: Vec<Turn<'_>>, count: usize, regime: Regime) -> Vec<f64> {
     let mut times = vec![Vec::with_capacity(regime.rounds); turns.len()];
     for _ in 0..regime.rounds {
@@ -65,7 +65,7 @@ pub fn medians_of_turns(mut turns: Vec<Turn<'_>>, count: usize, regime: Regime) 
     times.into_iter().map(|times| median(times) / count as f64).collect()
 }
 
-/// Does it so many times, or fewer if that takes long. Returns how many times, and how long it took.
+/// Repeats a turn so many times, or fewer if that takes long. Returns the number of times and the time.
 fn repeat(turn: &mut Turn<'_>, times: u32) -> (u32, Duration) {
     let start = Instant::now();
     for done in 0..times {

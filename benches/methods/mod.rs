@@ -1,13 +1,13 @@
-//! The published ways to intersect a ray with a sphere, each as its source states it: what every benchmark compares with.
+//! The published methods of ray-sphere intersection, each as its source states it.
 //!
 //! One definition serves both precisions: `methods::single` and `methods::double`. With `o = c - p`, the roots are those of
 //! `a t² - 2 h t + c = 0`, where `a = d·d`, `h = d·o` and `c = o·o - r²`; they come ascending.
 #![allow(dead_code, unreachable_pub, reason = "each benchmark takes what it needs")]
 
 use eyeray::Ray;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
-/// Where a ray meets a sphere, as a shader wants it.
+/// The nearest hit with what shading needs.
 #[derive(Clone, Copy, Debug)]
 pub struct Shading<V, S> {
     pub t: S,
@@ -182,18 +182,12 @@ methods!(double, DVec3, f64);
 
 /// The textbook's orthographic eye ray through (u, v): p = e + u U + v V, d = -W. S. Marschner, CS4620 lecture 6.
 #[inline(always)]
-pub fn orthographic_ray(eye: Vec3, [u_axis, v_axis, w_axis]: [Vec3; 3], u: f32, v: f32) -> Ray {
-    Ray::new(eye + u * u_axis + v * v_axis, -w_axis)
+pub fn orthographic_ray(eye: Vec3, [u, v, w]: [Vec3; 3], uv: Vec2) -> Ray {
+    Ray::new(eye + uv.x * u + uv.y * v, -w)
 }
 
 /// The textbook's perspective eye ray through (u, v): p = e, d = u U + v V - s W. The same source.
 #[inline(always)]
-pub fn perspective_ray(
-    eye: Vec3,
-    [u_axis, v_axis, w_axis]: [Vec3; 3],
-    distance: f32,
-    u: f32,
-    v: f32,
-) -> Ray {
-    Ray::new(eye, u * u_axis + v * v_axis - distance * w_axis)
+pub fn perspective_ray(eye: Vec3, [u, v, w]: [Vec3; 3], distance: f32, uv: Vec2) -> Ray {
+    Ray::new(eye, uv.x * u + uv.y * v - distance * w)
 }

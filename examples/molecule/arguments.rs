@@ -2,18 +2,16 @@
 
 use std::path::PathBuf;
 
+use lexopt::Parser;
 use lexopt::ValueExt;
 use lexopt::prelude::{Long, Short};
+
+use crate::command_line::whole_number;
 
 pub(crate) const USAGE: &str = "usage: molecule [--pick X,Y] [--beside-textbook] [--distance RADII] [--zoom FACTOR] \
 [--width 1..16384] [--height 1..16384] [--output FILE.png]";
 
-/// What the command line asks for.
-pub(crate) enum Request {
-    Help,
-    Run(Arguments),
-}
-
+/// A parsed command line.
 pub(crate) struct Arguments {
     /// The pixel below which an atom is to be named, instead of a picture.
     pub(crate) pick: Option<[f32; 2]>,
@@ -28,7 +26,8 @@ pub(crate) struct Arguments {
     pub(crate) output: PathBuf,
 }
 
-pub(crate) fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
+/// Parses the command line. Returns `None` for `--help`.
+pub(crate) fn parse(mut parser: Parser) -> Result<Option<Arguments>, lexopt::Error> {
     let mut arguments = Arguments {
         pick: None,
         beside_textbook: false,
@@ -44,14 +43,14 @@ pub(crate) fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error
             Long("beside-textbook") => arguments.beside_textbook = true,
             Long("distance") => arguments.distance = parser.value()?.parse()?,
             Long("zoom") => arguments.zoom = parser.value()?.parse()?,
-            Long("width") => arguments.width = whole_number(&mut parser, 16_384)?,
-            Long("height") => arguments.height = whole_number(&mut parser, 16_384)?,
+            Long("width") => arguments.width = whole_number(&mut parser, 1..=16_384)?,
+            Long("height") => arguments.height = whole_number(&mut parser, 1..=16_384)?,
             Long("output") => arguments.output = parser.value()?.into(),
-            Long("help") | Short('h') => return Ok(Request::Help),
+            Long("help") | Short('h') => return Ok(None),
             _ => return Err(argument.unexpected()),
         }
     }
-    Ok(Request::Run(arguments))
+    Ok(Some(arguments))
 }
 
 /// Parses a pixel, "X,Y".
@@ -59,12 +58,4 @@ fn pixel(text: &str) -> Result<[f32; 2], &'static str> {
     let coordinates =
         text.split_once(',').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
     coordinates.ok_or("not two numbers with a comma between them")
-}
-
-/// Parses the next value, a whole number from 1 to `largest`.
-fn whole_number(parser: &mut lexopt::Parser, largest: u16) -> Result<u16, lexopt::Error> {
-    parser.value()?.parse_with(|text| match text.parse() {
-        Ok(number) if (1..=largest).contains(&number) => Ok(number),
-        _ => Err(format!("not a whole number from 1 to {largest}")),
-    })
 }

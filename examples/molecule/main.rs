@@ -16,11 +16,13 @@
 //! `--beside-textbook` draws in the right half, it does: the discriminant is the difference of two large numbers, and the
 //! farther the eye, the fewer correct digits are left in it.
 //!
-//! The crate makes the eye rays ([`eyeray::Camera::rays`]), finds the atoms ([`eyeray::SphereBvh`]), takes a pixel of the mouse to
-//! the atom below it ([`eyeray::Camera::pixel_ray`]), and an atom to the pixel at which its label belongs
+//! The crate creates the eye rays ([`eyeray::Camera::rays`]), finds the atoms that they hit ([`eyeray::SphereBvh`]), creates the ray
+//! of the mouse's pixel for picking ([`eyeray::Camera::pixel_ray`]), and projects an atom to the pixel of its label
 //! ([`eyeray::Camera::project_to_pixel`]).
 
 mod arguments;
+#[path = "../shared/command_line.rs"]
+mod command_line;
 mod crystal;
 mod picture;
 mod textbook;
@@ -29,35 +31,19 @@ mod viewer;
 use std::error::Error;
 use std::process::ExitCode;
 
-use arguments::{Arguments, Request, USAGE};
+use arguments::{Arguments, USAGE};
 use glam::Vec2;
 use viewer::Viewer;
 
 fn main() -> ExitCode {
-    match arguments::parse(lexopt::Parser::from_env()) {
-        Ok(Request::Help) => {
-            println!("{USAGE}");
-            ExitCode::SUCCESS
-        }
-        Ok(Request::Run(arguments)) => match run(&arguments) {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(error) => {
-                eprintln!("molecule: {error}");
-                ExitCode::FAILURE
-            }
-        },
-        Err(error) => {
-            eprintln!("molecule: {error}\n{USAGE}");
-            ExitCode::from(2)
-        }
-    }
+    command_line::run("molecule", USAGE, arguments::parse, run)
 }
 
-fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+/// Draws the picture, or picks an atom.
+fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     let viewer = Viewer::new(crystal::atoms(), arguments)?;
     if let Some([x, y]) = arguments.pick {
-        println!("{}", describe(&viewer, Vec2::new(x, y)));
-        return Ok(());
+        return Ok(describe(&viewer, Vec2::new(x, y)));
     }
     let picture = if arguments.beside_textbook {
         let ours = viewer.picture(|ray| viewer.nearest(ray));
@@ -71,11 +57,10 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         picture
     };
     picture.save(&arguments.output)?;
-    println!("{}: {} atoms", arguments.output.display(), viewer.atoms().len());
-    Ok(())
+    Ok(format!("{}: {} atoms", arguments.output.display(), viewer.atoms().len()))
 }
 
-/// Says what is seen at a pixel.
+/// Describes the atom that is seen at a pixel.
 fn describe(viewer: &Viewer, pixel: Vec2) -> String {
     match viewer.pick(pixel) {
         Some((index, hit)) => {

@@ -4,7 +4,7 @@ use eyeray::{Hit, Ray, Sphere};
 
 use crate::crystal::Atom;
 
-/// Returns which atom the ray meets first, and where.
+/// Returns the nearest hit and the index of its atom.
 pub(crate) fn nearest(atoms: &[Atom], ray: &Ray) -> Option<(usize, Hit)> {
     let hits =
         atoms.iter().enumerate().filter_map(|(i, atom)| Some((i, intersect(&atom.sphere, ray)?)));

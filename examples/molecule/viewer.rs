@@ -1,4 +1,4 @@
-//! The view of the molecule: what is seen at a pixel, and at which pixel something is seen.
+//! The view of the molecule: the atom at a pixel, and the pixel of an atom.
 
 use eyeray::{Camera, CameraError, Frame, Hit, Ray, SphereBvh, ViewRect};
 use glam::{Vec2, Vec3, vec3};
@@ -39,7 +39,7 @@ impl Viewer {
         &self.atoms
     }
 
-    /// Returns which atom the ray meets first, and where.
+    /// Returns the nearest hit and the index of its atom.
     pub(crate) fn nearest(&self, ray: &Ray) -> Option<(usize, Hit)> {
         self.spheres.nearest(ray, 0.0..f32::INFINITY)
     }
@@ -62,7 +62,7 @@ impl Viewer {
         })
     }
 
-    /// Draws the picture of what `nearest` finds.
+    /// Draws the picture with the hits of `nearest`.
     pub(crate) fn picture(&self, nearest: impl Fn(&Ray) -> Option<(usize, Hit)> + Sync) -> Picture {
         /// So many rays a pixel, in each direction.
         const SAMPLES: u16 = 3;
@@ -85,7 +85,7 @@ impl Viewer {
         Picture::new(self.width, rows.map(|sum| sum * scale).collect())
     }
 
-    /// The color of what was found along a ray: lit from the upper left, and paler in the distance.
+    /// The color of a hit: lit from the upper left, and paler in the distance.
     fn color(&self, ray: &Ray, found: Option<(usize, Hit)>) -> Vec3 {
         const BACKGROUND: Vec3 = Vec3::ONE;
         /// How deep the crystal is, at most.

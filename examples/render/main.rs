@@ -11,11 +11,13 @@
 //! cargo run --release --example render -- --width 800 --height 450 --samples 1024 --output examples/render.png
 //! ```
 //!
-//! The crate makes the eye rays ([`eyeray::Camera`]), finds what they meet ([`eyeray::Spheres::nearest`]), tells whether a lamp
-//! is in sight ([`eyeray::Hittable::occludes`]) and starts every later ray ([`eyeray::Hit::spawn`]). There is no
-//! smallest distance to tune: each range starts at 0, and no surface shadows itself.
+//! The crate creates the eye rays ([`eyeray::Camera`]), finds their nearest hits ([`eyeray::Spheres::nearest`]), tests whether a
+//! lamp is in sight ([`eyeray::Hittable::occludes`]) and creates the rays that leave a surface ([`eyeray::Hit::spawn`]). There is no
+//! epsilon to tune: each range begins at 0, and no surface shadows itself.
 
 mod arguments;
+#[path = "../shared/command_line.rs"]
+mod command_line;
 mod material;
 mod path;
 mod picture;
@@ -24,38 +26,24 @@ mod scene;
 
 use std::error::Error;
 use std::fs::File;
-use std::io::{Write, stderr, stdout};
 use std::process::ExitCode;
 use std::time::Instant;
 
-use arguments::{Arguments, Request, USAGE};
+use arguments::{Arguments, USAGE};
 use scene::Scene;
 
 fn main() -> ExitCode {
-    match arguments::parse(lexopt::Parser::from_env()) {
-        Ok(Request::Help) => tell(stdout(), USAGE, ExitCode::SUCCESS),
-        Ok(Request::Render(arguments)) => match run(&arguments) {
-            Ok(summary) => tell(stdout(), &summary, ExitCode::SUCCESS),
-            Err(message) => tell(stderr(), &format!("render: {message}"), ExitCode::FAILURE),
-        },
-        Err(error) => tell(stderr(), &format!("render: {error}\n{USAGE}"), ExitCode::from(2)),
-    }
+    command_line::run("render", USAGE, arguments::parse, run)
 }
 
-/// Prints the message. That nobody listens, as at the end of a closed pipe, is no error.
-fn tell(mut to: impl Write, message: &str, code: ExitCode) -> ExitCode {
-    let _ = writeln!(to, "{message}");
-    code
-}
-
-/// Renders the picture into its file, and says what was done.
-fn run(arguments: &Arguments) -> Result<String, String> {
+/// Renders the picture into its file, and prints what was done.
+fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     let Arguments { view, width, height, samples, output } = arguments;
     let cannot_write =
         |error: &dyn Error| format!("cannot write \"{}\": {error}", output.display());
     let camera =
         view.camera(*width, *height).map_err(|error| format!("no such camera: {error}"))?;
-    // Opened first: a path that cannot be written is better told before the work than after it.
+    // Opened first, so that a path that cannot be written is reported before the work.
     let file = File::create(output).map_err(|error| cannot_write(&error))?;
 
     let start = Instant::now();

@@ -1,36 +1,36 @@
-//! What surfaces do with the light that meets them.
+//! Materials: how surfaces reflect and refract light.
 
 use std::f32::consts::TAU;
 
 use eyeray::{Hit, Ray};
 use glam::{Vec3, vec3};
 
-/// What a sphere is made of.
+/// The material of a sphere.
 #[derive(Clone, Copy)]
 pub(crate) enum Material {
-    /// Shines with that radiance in every direction, and reflects nothing.
+    /// A lamp: emits that radiance in every direction, and reflects nothing.
     Lamp(Vec3),
-    /// Lambert's surface of that albedo.
+    /// A matte (Lambertian) surface with that albedo.
     Matte(Vec3),
-    /// Lambert's surface of that albedo under a clear coat.
+    /// A matte surface with that albedo under a clear coat.
     Glossy(Vec3),
-    /// `reflectance` is what comes back at normal incidence; `fuzz`, from 0 to 1, blurs the mirror.
+    /// A metal, with its reflectance at normal incidence; `fuzz`, from 0 to 1, blurs the reflection.
     Metal { reflectance: Vec3, fuzz: f32 },
-    /// Clear, of that index of refraction.
+    /// A clear material with that index of refraction.
     Glass(f32),
 }
 
-/// Where a path goes on.
+/// The continuation of a path.
 pub(crate) struct Scatter {
     pub(crate) direction: Vec3,
-    /// What part of the light from there goes on along the path.
+    /// The part of the light from there that is scattered along the path.
     pub(crate) weight: Vec3,
     /// Whether `direction` was drawn from Lambert's cosine law.
     pub(crate) diffuse: bool,
 }
 
 impl Material {
-    /// Where the path that came along `ray` goes on from `hit`, by three random numbers in 0..1; `None` where it ends.
+    /// Returns the continuation from `hit` of the path that came along `ray`, by three random numbers in 0..1; `None` where it ends.
     pub(crate) fn scatter(
         &self,
         ray: &Ray,
@@ -55,15 +55,15 @@ impl Material {
                 return Some(Scatter { direction, weight: Vec3::ONE, diffuse: false });
             }
         };
-        // What the fuzz, or a rounding, sends into an opaque surface is lost there.
+        // A direction into the opaque surface, by fuzz or by rounding, is absorbed.
         hit.is_outward(direction).then_some(Scatter { direction, weight, diffuse })
     }
 }
 
-/// How much a clear coat of index 1.5 reflects at normal incidence.
+/// The reflectance of a clear coat of index 1.5 at normal incidence.
 const COAT: f32 = 0.04;
 
-/// Reflected or refracted, as `choice` has it.
+/// Returns the reflected or the refracted direction, as the random number `choice` decides.
 fn through_glass(incoming: Vec3, hit: &Hit, entering: bool, index: f32, choice: f32) -> Vec3 {
     let (normal, ratio) = if entering { (hit.normal, 1.0 / index) } else { (-hit.normal, index) };
     // Zero where the reflection is total.
@@ -79,7 +79,7 @@ fn schlick(at_normal: f32, cosine: f32) -> f32 {
     at_normal + (1.0 - at_normal) * (1.0 - cosine.clamp(0.0, 1.0)).powi(5)
 }
 
-/// The unit square onto the unit sphere, areas kept.
+/// Maps the unit square to the unit sphere, preserving areas.
 fn on_unit_sphere(a: f32, b: f32) -> Vec3 {
     let z = 1.0 - 2.0 * a;
     let radius = (1.0 - z * z).sqrt();

@@ -1,4 +1,4 @@
-//! The path tracer: how much light comes back along a ray.
+//! The path tracer: the light that arrives along a ray.
 
 use std::f32::consts::{PI, TAU};
 

@@ -1,4 +1,4 @@
-//! Where the path tracer takes its random numbers from.
+//! The random numbers of the path tracer.
 
 /// The random numbers of one path: an Owen-scrambled Sobol sequence, which spreads the paths of a pixel evenly.
 ///

@@ -1,4 +1,4 @@
-//! What there is to see, and where from: the spheres of Aras Pranckevičius's benchmark `ToyPathTracer`, at dusk.
+//! The scene and its cameras: the spheres of Aras Pranckevičius's benchmark `ToyPathTracer`, at dusk.
 
 use std::f32::consts::TAU;
 
@@ -7,7 +7,7 @@ use glam::{Vec3, vec3};
 
 use crate::material::Material::{self, Glass, Glossy, Lamp, Matte, Metal};
 
-/// The spheres, and what each is made of, in the same order.
+/// The spheres and their materials, in the same order.
 pub(crate) struct Scene {
     pub(crate) spheres: Spheres,
     pub(crate) materials: Vec<Material>,

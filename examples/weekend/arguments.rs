@@ -2,21 +2,17 @@
 
 use std::path::PathBuf;
 
+use lexopt::Parser;
 use lexopt::ValueExt;
 use lexopt::prelude::{Long, Short};
 
+use crate::command_line::whole_number;
 use crate::objects::Kind;
 
 pub(crate) const USAGE: &str = "usage: weekend [--width 1..16384] [--height 1..16384] [--samples 1..65535] \
 [--objects slice|boxes|spheres|bvh] [--output FILE.png]";
 
-/// What the command line asks for.
-pub(crate) enum Request {
-    Help,
-    Render(Arguments),
-}
-
-/// The picture asked for.
+/// A parsed command line.
 pub(crate) struct Arguments {
     pub(crate) width: u16,
     pub(crate) height: u16,
@@ -27,7 +23,8 @@ pub(crate) struct Arguments {
     pub(crate) output: PathBuf,
 }
 
-pub(crate) fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
+/// Parses the command line. Returns `None` for `--help`.
+pub(crate) fn parse(mut parser: Parser) -> Result<Option<Arguments>, lexopt::Error> {
     let mut arguments = Arguments {
         width: 800,
         height: 450,
@@ -37,22 +34,14 @@ pub(crate) fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error
     };
     while let Some(argument) = parser.next()? {
         match argument {
-            Long("width") => arguments.width = whole_number(&mut parser, 16_384)?,
-            Long("height") => arguments.height = whole_number(&mut parser, 16_384)?,
-            Long("samples") => arguments.samples = whole_number(&mut parser, 65_535)?,
+            Long("width") => arguments.width = whole_number(&mut parser, 1..=16_384)?,
+            Long("height") => arguments.height = whole_number(&mut parser, 1..=16_384)?,
+            Long("samples") => arguments.samples = whole_number(&mut parser, 1..=65_535)?,
             Long("objects") => arguments.kind = parser.value()?.parse()?,
             Long("output") => arguments.output = parser.value()?.into(),
-            Long("help") | Short('h') => return Ok(Request::Help),
+            Long("help") | Short('h') => return Ok(None),
             _ => return Err(argument.unexpected()),
         }
     }
-    Ok(Request::Render(arguments))
-}
-
-/// Parses the next value, a whole number from 1 to `largest`.
-fn whole_number(parser: &mut lexopt::Parser, largest: u16) -> Result<u16, lexopt::Error> {
-    parser.value()?.parse_with(|text| match text.parse() {
-        Ok(number) if (1..=largest).contains(&number) => Ok(number),
-        _ => Err(format!("not a whole number from 1 to {largest}")),
-    })
+    Ok(Some(arguments))
 }

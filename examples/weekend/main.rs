@@ -22,12 +22,14 @@
 //! | `camera::get_ray` | [`eyeray::Camera::pixel_ray`]; the lens is in `lens.rs` |
 //! | the `t` of at least 0.001 against shadow acne | nothing: [`eyeray::Hit::spawn`] starts a ray clear of the surface |
 //!
-//! The materials, the colors and the numbers of the scene are the book's. `--objects` chooses what the spheres are kept in; the
-//! picture is the same, byte for byte, with all four, and with any number of threads (`RAYON_NUM_THREADS`).
+//! The materials, the colors and the numbers of the scene are the book's. `--objects` chooses the collection of the spheres. The
+//! picture is the same, byte for byte, with all four of them, and with any number of threads (`RAYON_NUM_THREADS`).
 //!
 //! [Ray Tracing in One Weekend]: https://raytracing.github.io/books/RayTracingInOneWeekend.html
 
 mod arguments;
+#[path = "../shared/command_line.rs"]
+mod command_line;
 mod lens;
 mod material;
 mod objects;
@@ -39,33 +41,17 @@ use std::error::Error;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use arguments::{Arguments, Request, USAGE};
+use arguments::{Arguments, USAGE};
 use lens::Lens;
 use objects::Objects;
 use scene::Scene;
 
 fn main() -> ExitCode {
-    match arguments::parse(lexopt::Parser::from_env()) {
-        Ok(Request::Help) => {
-            println!("{USAGE}");
-            ExitCode::SUCCESS
-        }
-        Ok(Request::Render(arguments)) => match render(&arguments) {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(error) => {
-                eprintln!("weekend: {error}");
-                ExitCode::FAILURE
-            }
-        },
-        Err(error) => {
-            eprintln!("weekend: {error}\n{USAGE}");
-            ExitCode::from(2)
-        }
-    }
+    command_line::run("weekend", USAGE, arguments::parse, render)
 }
 
-/// Renders the scene into the file that the command line names, and says how long it took.
-fn render(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+/// Renders the scene into the file that the command line names, and returns how long it took.
+fn render(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     let Arguments { width, height, samples, kind, ref output } = *arguments;
     let lens = Lens::new(width, height)?;
     let Scene { spheres, materials } = Scene::new();
@@ -77,9 +63,8 @@ fn render(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let seconds = start.elapsed().as_secs_f64();
 
     picture::write_png(output, width, height, &pixels)?;
-    println!(
+    Ok(format!(
         "{}: {width} x {height}, {samples} samples a pixel, {count} spheres as {kind}, {seconds:.1} s",
         output.display()
-    );
-    Ok(())
+    ))
 }

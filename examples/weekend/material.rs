@@ -1,11 +1,11 @@
-//! What surfaces do with the light that meets them.
+//! Materials: how surfaces reflect and refract light.
 
 use eyeray::{Hit, Ray};
 use glam::Vec3;
 
 use crate::random::Random;
 
-/// What a sphere is made of.
+/// The material of a sphere.
 #[derive(Clone, Copy)]
 pub(crate) enum Material {
     /// The book's `lambertian`.
@@ -40,7 +40,7 @@ impl Material {
                 return Some((Vec3::ONE, hit.spawn(direction)));
             }
         };
-        // What fuzz sends below the surface is absorbed.
+        // A direction below the surface, by fuzz, is absorbed.
         (direction.dot(normal) > 0.0).then(|| (color, hit.spawn(direction)))
     }
 }

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use eyeray::{Hit, Hittable, Ray, Sphere, SphereBvh, Spheres, nearest};
 
-/// What the spheres are kept in.
+/// The collection that the spheres are kept in.
 #[derive(Clone, Copy)]
 pub(crate) enum Kind {
     Slice,
@@ -38,7 +38,7 @@ impl Objects {
         }
     }
 
-    /// Returns which object the ray meets first, and where. The range starts at 0, for no ray meets the surface that it leaves.
+    /// Returns the nearest hit and the index of the object. The range begins at 0, because no ray hits the surface that it leaves.
     pub(crate) fn nearest(&self, ray: &Ray) -> Option<(usize, Hit)> {
         let range = 0.0..f32::INFINITY;
         match self {

@@ -14,7 +14,7 @@ use crate::material::Material;
 use crate::objects::Objects;
 use crate::random::Random;
 
-/// After so many bounces, what is left of the light is not worth the time.
+/// The largest number of bounces of a path.
 const DEEPEST: u32 = 50;
 
 /// Renders the picture on every core, as bytes of red, green and blue, row by row from the top.

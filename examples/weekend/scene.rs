@@ -1,4 +1,4 @@
-//! The spheres of the final scene, and what they are made of.
+//! The spheres of the final scene, and their materials.
 
 use eyeray::Sphere;
 use glam::{Vec3, vec3};
@@ -6,7 +6,7 @@ use glam::{Vec3, vec3};
 use crate::material::Material;
 use crate::random::Random;
 
-/// The scene: sphere i is made of material i.
+/// The scene: sphere i has material i.
 pub(crate) struct Scene {
     pub(crate) spheres: Vec<Sphere>,
     pub(crate) materials: Vec<Material>,
@@ -41,7 +41,7 @@ impl Scene {
     }
 }
 
-/// What a small sphere is made of: four in five are matte, and one in twenty is of glass.
+/// A random material of a small sphere: four in five are matte, and one in twenty is glass.
 fn small_material(random: &mut Random) -> Material {
     match random.unit() {
         ..0.8 => Material::Matte(random.color(0.0, 1.0) * random.color(0.0, 1.0)),

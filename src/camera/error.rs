@@ -5,7 +5,7 @@ use core::fmt::{Display, Formatter, Result};
 
 /// The error type of the constructors of [`Frame`](crate::Frame) and [`Camera`](crate::Camera): which argument is invalid, and why.
 ///
-/// If several are invalid, it is about one of them.
+/// If several arguments are invalid, the error is about one of them.
 ///
 /// ```
 /// use eyeray::{CameraArgument, CameraError, Frame};

@@ -105,7 +105,7 @@ impl<V: Vector> Frame<V> {
     /// let frame = Frame::look_to(eye, forward, Vec3::Y)?;
     /// assert_eq!(frame.basis(), [vec3(0.8, 0.0, 0.6), Vec3::Y, vec3(-0.6, 0.0, 0.8)]);
     ///
-    /// // Between 1e8 and 1e8 + 8, `f32` has no numbers: a target made by addition would lie along -Z.
+    /// // The `f32` after 1e8 is 1e8 + 8: a target computed by addition would be along -Z.
     /// assert_eq!(eye + forward, vec3(1e8, 0.0, -0.8));
     /// # Ok(())
     /// # }
@@ -138,7 +138,7 @@ impl<V: Vector> Frame<V> {
         Self { eye, u, v, w, precision: PhantomData }
     }
 
-    /// The frame with the same numbers, which another precision may round when it gives them.
+    /// The same frame in another precision, to which its numbers are rounded when they are returned.
     pub(crate) const fn cast<W: Vector>(self) -> Frame<W> {
         Frame::from_parts(self.eye, [self.u, self.v, self.w])
     }
@@ -264,13 +264,13 @@ impl<V: Vector> Frame<V> {
         self.camera(view, Projection::Perspective { distance: 1.0 })
     }
 
-    /// The camera of this frame, if the view rectangle is one.
+    /// The camera with this frame, or an error if the view rectangle is invalid.
     pub(crate) fn camera(
         &self,
         view: ViewRect<f64>,
         projection: Projection,
     ) -> Result<Camera<V>, CameraError> {
-        // An infinite or NaN edge makes the width or the height so as well.
+        // If a side is infinite or NaN, the width or the height is so too.
         if !(view.width().is_finite() && view.height().is_finite()) {
             return Err(CameraError::NotFinite(CameraArgument::View));
         }
@@ -287,7 +287,7 @@ fn finite<V: Vector>(vector: V, argument: CameraArgument) -> Result<DVec3, Camer
     vector.is_finite().then_some(vector).ok_or(CameraError::NotFinite(argument))
 }
 
-/// Without the marker of the precision, which holds nothing.
+/// Formats the eye and the basis, in `f64`.
 impl<V: Vector> Debug for Frame<V> {
     fn fmt(&self, f: &mut Formatter<'_>) -> core::fmt::Result {
         let Self { eye, u, v, w, precision: _ } = self;

@@ -45,8 +45,9 @@ use pixels::Axis;
 /// against the direction of view. A point (u, v) of the view plane is u along U and v along V from the point straight ahead of the
 /// eye. The image shows the part of this plane inside the [view rectangle](ViewRect).
 ///
-/// - **Orthographic**: the eye is in the view plane. Each ray starts at a point s of this plane, and all are parallel. What is behind
-///   the view plane is not visible: to see it, move the eye back, against the direction of view. Nothing else changes in the image.
+/// - **Orthographic**: the eye is in the view plane. Each ray starts at a point s of this plane, and all rays are parallel. Objects
+///   behind the view plane are not visible. Moving the eye back, against the direction of view, makes them visible, and changes
+///   nothing else in the image.
 /// - **Perspective**: the view plane is ahead of the eye, at a distance, the focal length. Each ray starts at the eye and
 ///   goes through a point s of this plane. Its direction is not a unit vector: `t = 1` is the view plane.
 ///
@@ -71,7 +72,7 @@ use pixels::Axis;
 /// assert_eq!(ray.origin, vec3(0.0, 0.0, 5.0));
 /// assert_eq!(ray.direction, vec3(1.0, 0.5, -2.0));
 ///
-/// // Twice as far away, the same ray passes the same point of the view plane.
+/// // Every point along the ray is projected to the same (u, v).
 /// assert_eq!(camera.project(ray.at(2.0)), Some(vec2(1.0, 0.5)));
 /// # Ok(())
 /// # }
@@ -89,7 +90,7 @@ use pixels::Axis;
 /// use eyeray::{Camera, Ray};
 /// use glam::{Vec2, Vec3};
 ///
-/// /// Returns the ray of a pixel through the point `lens` of the lens, along U and V from its center.
+/// /// Returns the ray of a pixel that starts at the point `lens` of the lens, along U and V.
 /// fn lens_ray(camera: &Camera, pixel: Vec2, width: u32, height: u32, lens: Vec2) -> Ray {
 ///     let Ray { origin, direction } = camera.pixel_ray(pixel, width, height);
 ///     let [u, v, _] = camera.basis();
@@ -211,7 +212,8 @@ impl<V: Vector> Camera<V> {
     /// `distance`, the focal length.
     ///
     /// Short for [`Frame::look_at`] and [`Frame::perspective`]. Only the direction from the eye to `target` counts, which need not be
-    /// in the view plane, and only the direction of `up`, which need not be at a right angle to the view. [`Frame`] says what to pass as `up` when looking straight down.
+    /// in the view plane, and only the direction of `up`, which need not be at a right angle to the view. [`Frame`] says what to pass
+    /// as `up` when looking straight down.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};
@@ -245,7 +247,7 @@ impl<V: Vector> Camera<V> {
     /// Creates a perspective camera at `eye` that looks at `target`, with `up` upwards in the image, with the vertical field of view
     /// `fov_y`, in radians, and the aspect ratio `aspect`, width over height.
     ///
-    /// Short for [`Frame::look_at`] and [`Frame::perspective_fov`], which says more.
+    /// Short for [`Frame::look_at`] and [`Frame::perspective_fov`], where the view rectangle and the tangent are described.
     ///
     /// ```
     /// use core::f32::consts::FRAC_PI_2;
@@ -278,8 +280,8 @@ impl<V: Vector> Camera<V> {
 
     /// Returns the eye ray through the point (u, v) of the view plane, which need not be inside the view rectangle.
     ///
-    /// If u or v is NaN or infinite, the ray is not finite, and hits nothing. No coordinate of a direction is -0, except a negative
-    /// one that is too small for `V`.
+    /// If u or v is NaN or infinite, the ray is not finite, and hits nothing. No coordinate of a direction is -0, except where a
+    /// negative one underflows.
     ///
     /// ```
     /// use eyeray::{Camera, Hittable, Sphere, ViewRect};
@@ -374,7 +376,7 @@ impl<V: Vector> Camera<V> {
         self.ray_in_row(self.common(), self.row(rows.at(y)), columns.at(x))
     }
 
-    /// The two sides of an image on those of the view rectangle: rightwards and downwards.
+    /// The axes of an image along the sides of the view rectangle: rightwards and downwards.
     #[inline]
     fn axes(&self, width: u32, height: u32) -> [Axis; 2] {
         let ViewRect { left, right, bottom, top } = self.view;
@@ -492,7 +494,7 @@ impl<V: Vector> Camera<V> {
         self.depth_of(point)
     }
 
-    /// The camera with the same numbers, which another precision may round when it gives them.
+    /// The same camera in another precision, to which its numbers are rounded when they are returned.
     pub(crate) const fn cast<W: Vector>(self) -> Camera<W> {
         Camera { frame: self.frame.cast(), view: self.view, projection: self.projection }
     }

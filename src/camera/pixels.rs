@@ -44,7 +44,7 @@ impl Axis {
         Self { start, steps: [first, second, rest * per_pixel] }
     }
 
-    /// The u at `x` pixels from the start. Beyond the largest `f64`, that; of a NaN or an infinity, a NaN.
+    /// The u at `x` pixels from the start, at most the largest `f64`; NaN if x is NaN or infinite.
     #[inline]
     pub(super) fn at(&self, x: f64) -> f64 {
         /// Added and subtracted again, it rounds to a multiple of 2⁻⁸: 3 · 2⁴³.
@@ -62,7 +62,7 @@ impl Axis {
     /// The same as [`at`](Self::at), at the center of one of the pixels: a multiple of 1/2, so that nothing is left for the low
     /// part, and between the ends, so that nothing overflows.
     ///
-    /// For an axis that goes upwards. Of one that begins at -0 and goes downwards, a zero might have another sign.
+    /// For an axis along which u grows: on one that begins at -0 and goes down, a zero could have the other sign.
     #[inline]
     pub(super) fn at_center(&self, x: f64) -> f64 {
         let [first, second, third] = self.steps;

@@ -1,7 +1,7 @@
 //! From the scene back to the image: the inverse of the eye rays.
 //!
-//! Of a point, what counts is where it is seen from the eye: `f = point - e`. Its coordinates in the camera's basis are
-//! f·U, f·V and, ahead of the eye, the depth -f·W.
+//! With f the vector from the eye to the point, `f = point - e`, the coordinates of the point in the camera's basis are f·U, f·V
+//! and, ahead of the eye, the depth -f·W.
 //!
 //! ```text
 //!     orthographic    u = f·U                       v = f·V
@@ -13,7 +13,7 @@ use glam::{DVec2, DVec3};
 use super::{Camera, Frame, Projection};
 use crate::{Scalar, Vector};
 
-/// A point as the camera sees it: how far it lies along U, V and -W from the eye, each times `scale`, a power of two.
+/// The coordinates of a point from the eye, along U, V and -W, each times `scale`, a power of two.
 struct Seen {
     in_plane: DVec2,
     depth: f64,

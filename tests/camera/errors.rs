@@ -1,4 +1,4 @@
-//! Which arguments are refused, and with what words.
+//! The errors of the constructors, and their messages.
 
 use core::f32::consts::{FRAC_PI_2, PI};
 
@@ -9,7 +9,7 @@ const VIEW: ViewRect = ViewRect { left: -1.0, right: 1.0, bottom: -1.0, top: 1.0
 const EYE: Vec3 = Vec3::new(0.0, 0.0, 5.0);
 const NOT_FINITE: [f32; 3] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
 
-/// What the three constructors say of where the camera stands.
+/// The errors of the three constructors for a frame.
 fn errors(eye: Vec3, target: Vec3, up: Vec3) -> [Option<CameraError>; 3] {
     [
         Camera::orthographic(eye, target, up, VIEW).err(),

@@ -122,7 +122,7 @@ impl ViewPoint {
         Self(uv.to_array().map(|coordinate| integer(coordinate) << INPUT_BITS))
     }
 
-    /// Where a pixel is in the view rectangle, cut off after the last bit.
+    /// The point of the view rectangle at a pixel, truncated after the last bit.
     pub(crate) fn of_pixel(view: ViewRect<f64>, pixel: DVec2, width: u32, height: u32) -> Self {
         let on_axis = |start, end, x, pixels| {
             let (start, end) = (integer(start), integer(end));
@@ -148,7 +148,7 @@ impl Number {
         Self(integer(value) << UNIT_BITS)
     }
 
-    /// Itself times a quotient, cut off after the last bit.
+    /// The product with a quotient, truncated after the last bit.
     pub(crate) fn times(&self, numerator: &Self, denominator: &Self) -> Self {
         Self(&self.0 * &numerator.0 / &denominator.0)
     }
@@ -157,13 +157,13 @@ impl Number {
         Self(&self.0 - &other.0)
     }
 
-    /// Which is next to f64.
+    /// The number in f64, truncated.
     pub(crate) fn to_f64(&self) -> f64 {
         let magnitude = to_f64(&self.0.magnitude().clone().into());
         if self.0.sign() == Minus { -magnitude } else { magnitude }
     }
 
-    /// How far `computed` is from it, in f64.
+    /// The absolute error of `computed`, in f64.
     pub(crate) fn error(&self, computed: f64) -> f64 {
         self.minus(&Self::new(computed)).to_f64().abs()
     }

@@ -1,4 +1,4 @@
-//! What is written is what is read, bit for bit, in JSON and in a binary format, and what is no camera is not read as one.
+//! Data is the same after serializing and deserializing, bit for bit, in JSON and in a binary format; invalid cameras are rejected.
 //!
 //! Of `serde_json`, this takes the feature `float_roundtrip`; `tests/json` does without.
 
@@ -78,7 +78,7 @@ fn perspective() -> Value {
     })
 }
 
-/// What is said of the camera above where the value at this place is another one.
+/// The error for the camera above with another value at this place.
 fn refusal(place: &str, value: Value) -> String {
     let mut camera = perspective();
     *camera.pointer_mut(place).expect("a place in it") = value;
@@ -141,7 +141,7 @@ fn what_is_no_basis() {
         );
     }
     for axis in 0..3 {
-        // What neither rounding nor a fast reader can explain: a few ulp.
+        // Off by a few ulp, more than by rounding or a fast parser.
         let place = format!("/basis/{axis}/{axis}");
         assert!(refusal(&place, json!(1.0 + 10.0 * f64::EPSILON)).contains("basis"));
     }

@@ -123,7 +123,7 @@ pub const FAMILIES: &[Family] = &[
     family!(
         "hard to round",
         hard_to_round,
-        "a root near midway between two f32, of coordinates that chance gave"
+        "a root near midway between two f32, of random coordinates"
     ),
     family!(
         "point sphere",
@@ -238,7 +238,7 @@ impl Rng {
     }
 }
 
-/// What the generators must know of a precision.
+/// What the generators need of a precision.
 pub trait Precision: Vector {
     /// The largest finite value.
     const MAX: f64;
@@ -249,11 +249,11 @@ pub trait Precision: Vector {
     /// The exponents between which a coefficient family places its lengths.
     const EXPONENTS: (i32, i32);
 
-    /// The value for this precision, of one for each.
+    /// Returns the value that is for this precision.
     fn either<T>(single: T, double: T) -> T;
     /// The vector with one coordinate moved to the float above or below.
     fn nudged(self, coordinate: usize, up: bool) -> Self;
-    /// The scalar with the first of those bits.
+    /// The scalar with the leading ones of those bits.
     fn scalar(bits: u64) -> Self::Scalar;
     /// The vector of these coordinates.
     fn vector(coordinates: [Self::Scalar; 3]) -> Self;

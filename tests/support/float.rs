@@ -16,7 +16,7 @@ pub trait Float: Scalar {
     /// The ordinal of infinity.
     const INFINITE: i64;
 
-    /// Which value it is, in order. Not for NaN.
+    /// The position of the value in this order. Not for NaN.
     fn ordinal(self) -> i64;
     /// The value of that ordinal.
     fn from_ordinal(ordinal: i64) -> Self;

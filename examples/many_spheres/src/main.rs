@@ -1,5 +1,5 @@
-//! Which of 100 to 1,000,000 spheres a ray meets first, by [`eyeray::SphereBvh`], and what that costs, beside a scan of them all
-//! ([`eyeray::Spheres`]), a hierarchy by the crate obvhs, and Embree.
+//! The nearest hit among 100 to 1,000,000 spheres by [`eyeray::SphereBvh`], and the time that it takes, beside a scan
+//! ([`eyeray::Spheres`]), a hierarchy of the crate obvhs, and Embree.
 //!
 //! ```text
 //! cargo run --release --manifest-path examples/many_spheres/Cargo.toml
@@ -12,14 +12,17 @@
 
 mod arguments;
 mod cloud;
+#[path = "../../shared/command_line.rs"]
+mod command_line;
 mod obvhs;
 
+use std::error::Error;
 use std::hint::black_box;
-use std::io::{Write, stderr, stdout};
+use std::io::{Write, stdout};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use arguments::{Arguments, Request, USAGE};
+use arguments::{Arguments, USAGE};
 use eyeray::{Hit, Ray, Sphere, SphereBvh, Spheres};
 use obvhs::Hierarchy;
 
@@ -30,24 +33,11 @@ const SIZES: [u32; 13] = [
 ];
 
 fn main() -> ExitCode {
-    match arguments::parse(lexopt::Parser::from_env()) {
-        Ok(Request::Help) => tell(stdout(), USAGE, ExitCode::SUCCESS),
-        Ok(Request::Measure(arguments)) => match run(&arguments) {
-            Ok(summary) => tell(stdout(), &summary, ExitCode::SUCCESS),
-            Err(message) => tell(stderr(), &format!("many_spheres: {message}"), ExitCode::FAILURE),
-        },
-        Err(error) => tell(stderr(), &format!("many_spheres: {error}\n{USAGE}"), ExitCode::from(2)),
-    }
+    command_line::run("many_spheres", USAGE, arguments::parse, run)
 }
 
-/// Prints the message. That nobody listens, as at the end of a closed pipe, is no error.
-fn tell(mut to: impl Write, message: &str, code: ExitCode) -> ExitCode {
-    let _ = writeln!(to, "{message}");
-    code
-}
-
-/// Measures all sizes, printing each as it is done, and says from where on `SphereBvh` is faster than the scan.
-fn run(arguments: &Arguments) -> Result<String, String> {
+/// Measures all sizes, prints each when it is done, and then from which size on `SphereBvh` is faster than the scan.
+fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     let eye_rays =
         cloud::eye_rays(arguments.rays / 2).map_err(|error| format!("no such camera: {error}"))?;
     print_row(
@@ -82,11 +72,11 @@ fn run(arguments: &Arguments) -> Result<String, String> {
 
 fn print_row(count: &str, cells: [String; 6]) {
     let cells = cells.map(|cell| format!("{cell:>16}"));
-    let row = format!("{count:>9}{}", cells.concat());
-    tell(stdout(), &row, ExitCode::SUCCESS);
+    // A closed pipe is no error.
+    let _ = writeln!(stdout(), "{count:>9}{}", cells.concat());
 }
 
-/// What was measured of one cloud: nanoseconds a ray.
+/// The measurements of one cloud: nanoseconds a ray.
 struct Row {
     scan: f64,
     bvh: f64,

@@ -21,8 +21,8 @@ pub(crate) struct Hierarchy {
 
 /// By how much each box is larger than it need be.
 ///
-/// A box that holds its sphere is not enough: the crate computes in `f32` where the ray enters the box and leaves it, and
-/// rounding could say that it passes by. Over the 6,000 that a ray may go from the eye to the far side of the cloud, the six
+/// A box that contains its sphere is not enough: the crate computes in `f32` where the ray enters and leaves the box, and could
+/// miss it by rounding. Over the 6,000 that a ray may go from the eye to the far side of the cloud, the six
 /// roundings on the way make at most 0.003, and that the crate takes the coordinates of a direction below 2⁻²³ for 2⁻²³
 /// makes 0.001, for directions of about unit length. To those, it also matters that the crate skips boxes that the ray
 /// leaves before `t` = 0.0001.
@@ -43,7 +43,7 @@ impl Hierarchy {
         Self { tree, spheres }
     }
 
-    /// What [`eyeray::nearest`] says: which sphere the ray meets first, and where; of equal `t`, the lowest index.
+    /// Returns the nearest hit and its index, as [`eyeray::nearest`] does: of equal `t`, the lowest index.
     pub(crate) fn nearest(&self, ray: &Ray) -> Option<(usize, Hit)> {
         let mut found: Option<(u32, Hit)> = None;
         let Ray { origin, direction } = *ray;

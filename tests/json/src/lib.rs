@@ -1,4 +1,4 @@
-//! What serde_json's default features leave of data that was written as JSON: its reader of decimal numbers may be an ulp off.
+//! Data read back from JSON with serde_json's default features, whose parser of decimal numbers may be off by an ulp.
 //!
 //! ```text
 //! cargo test --manifest-path tests/json/Cargo.toml
@@ -59,7 +59,7 @@ fn single_precision_is_read_as_it_was_written() {
     }
 }
 
-/// Where this fails, serde_json reads exactly by now, and the documentation need not ask for its feature.
+/// If this fails, serde_json now reads exactly without its feature, and the documentation need not ask for it.
 #[test]
 fn double_precision_needs_float_roundtrip() {
     let mut numbers = Numbers::new();

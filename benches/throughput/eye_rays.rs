@@ -1,21 +1,16 @@
-//! Eye rays by criterion, each beside the textbook's lines.
+//! Eye rays, each beside the textbook's lines.
 //!
-//! ```text
-//! cargo bench --bench camera                         # everything, in half a minute
-//! cargo bench --bench camera -- perspective/f32      # what matches
-//! ```
-//!
-//! What is timed makes every ray of an image of 160 by 90 pixels and hands it on. `ray` and the textbook are given (u, v) from
-//! an array, `pixel_ray` the center of the pixel likewise, from which `ray` must otherwise compute (u, v) first.
-#![allow(missing_docs, reason = "criterion's macros make public functions")]
+//! What is timed creates every ray of an image of 160 by 90 pixels. `ray` and the textbook are given (u, v) from an array;
+//! `pixel_ray` is given the center of the pixel. "ray, (u, v) of the pixel" computes (u, v) from the same center first.
 
 use std::hint::black_box;
-use std::time::Duration;
 
 use criterion::measurement::WallTime;
-use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkGroup, Criterion, Throughput};
 use eyeray::{Camera, Frame, Ray, Vector, ViewRect};
 use glam::{DVec2, DVec3, Vec2, Vec3};
+
+use crate::methods;
 
 const EYE: Vec3 = Vec3::new(3.0, 2.0, 5.0);
 const VIEW: ViewRect = ViewRect { left: -1.6, right: 1.6, bottom: -0.9, top: 0.9 };
@@ -42,7 +37,7 @@ macro_rules! in_view_plane {
     }};
 }
 
-/// Times making all the rays of an image.
+/// Times creating all the rays of an image.
 fn image<V: Vector, I: Iterator<Item = Ray<V>>>(
     group: &mut BenchmarkGroup<'_, WallTime>,
     name: &str,
@@ -57,19 +52,19 @@ fn image<V: Vector, I: Iterator<Item = Ray<V>>>(
     });
 }
 
-/// The textbook's lines, S. Marschner, CS4620 lecture 6: p = e and d = u U + v V - s W, or p = e + u U + v V and d = -W.
+/// The textbook's lines.
 fn textbook(group: &mut BenchmarkGroup<'_, WallTime>, camera: &Camera, uvs: &[Vec2]) {
     let basis = camera.basis();
     if camera.distance().is_some() {
         image(group, "ray, textbook", || {
-            let (eye, [u, v, w], distance) = black_box((EYE, basis, DISTANCE));
-            let ray = move |uv: &Vec2| Ray::new(eye, uv.x * u + uv.y * v - distance * w);
+            let (eye, basis, distance) = black_box((EYE, basis, DISTANCE));
+            let ray = move |uv: &Vec2| methods::perspective_ray(eye, basis, distance, *uv);
             black_box(uvs).iter().map(ray)
         });
     } else {
         image(group, "ray, textbook", || {
-            let (eye, [u, v, w]) = black_box((EYE, basis));
-            black_box(uvs).iter().map(move |uv| Ray::new(eye + uv.x * u + uv.y * v, -w))
+            let (eye, basis) = black_box((EYE, basis));
+            black_box(uvs).iter().map(move |uv| methods::orthographic_ray(eye, basis, *uv))
         });
     }
 }
@@ -98,7 +93,7 @@ macro_rules! rows {
     };
 }
 
-fn eye_rays(criterion: &mut Criterion) {
+pub(crate) fn eye_rays(criterion: &mut Criterion) {
     let pixels = pixel_centers();
     let uvs: Vec<Vec2> = pixels.iter().map(|pixel| in_view_plane!(pixel, Vec2, f32)).collect();
     let frame = Frame::look_at(EYE, Vec3::ZERO, Vec3::Y).expect("a frame");
@@ -110,24 +105,14 @@ fn eye_rays(criterion: &mut Criterion) {
         let camera = camera.expect("a camera");
         let throughput = Throughput::Elements(u64::from(WIDTH) * u64::from(HEIGHT));
 
-        let mut group = criterion.benchmark_group(format!("{projection}/f32"));
+        let mut group = criterion.benchmark_group(format!("f32, eye rays, {projection}"));
         group.throughput(throughput.clone());
         textbook(&mut group, &camera, &uvs);
         rows!(group, camera, pixels.clone(), Vec2, f32);
 
         let camera = Camera::<DVec3>::from(camera);
-        let mut group = criterion.benchmark_group(format!("{projection}/f64"));
+        let mut group = criterion.benchmark_group(format!("f64, eye rays, {projection}"));
         group.throughput(throughput);
         rows!(group, camera, pixels.iter().map(|pixel| pixel.as_dvec2()).collect(), DVec2, f64);
     }
 }
-
-criterion_group! {
-    name = benches;
-    config = Criterion::default()
-        .sample_size(20)
-        .warm_up_time(Duration::from_millis(100))
-        .measurement_time(Duration::from_millis(300));
-    targets = eye_rays
-}
-criterion_main!(benches);

@@ -1,15 +1,18 @@
 //! One ray against a slice of spheres, in both precisions: `nearest` and `occludes` beside loops over published formulas.
 //!
 //! ```text
-//! cargo bench --bench slices                   # a table of medians and ratios, within seconds
-//! cargo bench --bench slices -- --test         # each once
+//! cargo bench --bench sphere_slices                   # a table of medians and ratios, in some seconds
+//! cargo bench --bench sphere_slices -- --test         # each once, untimed
 //! ```
 //!
-//! The spheres lie at random, as dense whatever their number. Half of the rays come from an eye, half bounce off what those meet.
+//! The spheres are random, with the same density for every number. Half of the rays are eye rays, half are bounce rays from their
+//! hits.
 //! The loops are those that path tracers have: a formula for each sphere in turn, the nearest so far as the range's end, and the
 //! point and the normal of the nearest at last.
 
+use std::fmt::Write as _;
 use std::hint::black_box;
+use std::io;
 use std::ops::Range;
 
 use eyeray::{Hit, Hittable, Ray, Scalar, Sphere, Vector, nearest};
@@ -20,6 +23,9 @@ mod methods;
 #[path = "../tests/support/mod.rs"]
 mod support;
 
+use measure::arguments::{Arguments, Effort};
+use measure::page;
+use measure::report::Table;
 use measure::timing::{self, PassOver, Regime};
 use methods::{double, single};
 use support::families::Rng;
@@ -30,7 +36,7 @@ fn all<S: Scalar>() -> Range<S> {
     S::ZERO..S::INFINITY
 }
 
-/// What a loop finds: index, t, point and normal.
+/// The result of a loop: index, t, point and normal.
 type Found<V> = (usize, <V as Vector>::Scalar, V, V);
 
 /// The nearest by a formula for t.
@@ -97,7 +103,7 @@ impl<V: Vector> Scene<V> {
     }
 }
 
-/// A pass over the rays of a scene that stores what is found of each.
+/// A pass over the rays of a scene that stores the result of each.
 fn pass<V: Vector, T>(
     find: impl Fn(&Scene<V>, &Ray<V>) -> T + Sync + 'static,
 ) -> PassOver<Scene<V>> {
@@ -108,21 +114,18 @@ fn pass<V: Vector, T>(
     })
 }
 
-/// Prints a table of one precision; the first two passes are those of the formulas.
-fn print<V: Vector>(precision: &str, formulas: [PassOver<Scene<V>>; 2], rounds: usize) {
+/// The table of one precision.
+fn table<V: Vector>(formulas: [PassOver<Scene<V>>; 2], rounds: usize) -> Table {
     let [textbook, parry] = formulas;
     let passes = [
         ("textbook", textbook),
         ("parry3d's formula", parry),
-        ("nearest", pass(|scene, ray| nearest(&scene.spheres, ray, all()).map(of_hit))),
-        ("occludes", pass(|scene, ray| scene.spheres.occludes(ray, all()))),
+        ("`nearest`", pass(|scene, ray| nearest(&scene.spheres, ray, all()).map(of_hit))),
+        ("`occludes`", pass(|scene, ray| scene.spheres.occludes(ray, all()))),
     ];
-    println!("{precision}: nanoseconds a ray, and in multiples of the faster formula\n");
-    print!("{:>8}", "spheres");
-    for (name, _) in &passes {
-        print!("{name:>20}");
-    }
-    println!();
+    let heads: Vec<_> =
+        std::iter::once("spheres").chain(passes.iter().map(|&(name, _)| name)).collect();
+    let mut table = Table::new(&heads);
     let turns: Vec<_> = passes.iter().map(|(_, pass)| pass).collect();
     for count in COUNTS {
         let scene = Scene::new(count);
@@ -130,26 +133,40 @@ fn print<V: Vector>(precision: &str, formulas: [PassOver<Scene<V>>; 2], rounds: 
         let regime = Regime { cases: rays, warm_up: 0, timed: 1, rounds };
         let medians = timing::medians(&turns, &scene, rays, regime);
         let formula = medians[0].min(medians[1]);
-        print!("{count:>8}");
-        for time in &medians {
-            print!("{time:>12.1} ({:>4.2}x)", time / formula);
-        }
-        println!();
+        let cells = medians.iter().map(|time| format!("{time:.1} ({:.2})", time / formula));
+        table.row(std::iter::once(count.to_string()).chain(cells).collect::<Vec<_>>());
     }
-    println!();
+    table
 }
 
-fn main() {
-    let once = std::env::args().any(|argument| argument == "--test");
-    let rounds = if once { 1 } else { 101 };
-    let formulas = [
-        pass(|scene, ray| by_formula(scene, ray, |r, s| single::ahead(single::textbook(r, s)))),
-        pass(|scene, ray| by_formula(scene, ray, single::parry_nearest)),
-    ];
-    print::<Vec3>("f32", formulas, rounds);
-    let formulas = [
-        pass(|scene, ray| by_formula(scene, ray, |r, s| double::ahead(double::textbook(r, s)))),
-        pass(|scene, ray| by_formula(scene, ray, double::parry_nearest)),
-    ];
-    print::<DVec3>("f64", formulas, rounds);
+fn main() -> io::Result<()> {
+    let effort = Arguments::read("sphere_slices").effort;
+    let rounds = match effort {
+        Effort::Full | Effort::Usual => 101,
+        Effort::Quick => 11,
+        Effort::Test => 1,
+    };
+    let single = table::<Vec3>(
+        [
+            pass(|scene, ray| by_formula(scene, ray, |r, s| single::ahead(single::textbook(r, s)))),
+            pass(|scene, ray| by_formula(scene, ray, single::parry_nearest)),
+        ],
+        rounds,
+    );
+    let double = table::<DVec3>(
+        [
+            pass(|scene, ray| by_formula(scene, ray, |r, s| double::ahead(double::textbook(r, s)))),
+            pass(|scene, ray| by_formula(scene, ray, double::parry_nearest)),
+        ],
+        rounds,
+    );
+    let mut text = String::new();
+    for (precision, table) in [("f32", single), ("f64", double)] {
+        let _ = writeln!(
+            text,
+            "First hit of one {precision} ray on a slice of spheres: nanoseconds a ray, and in parentheses in multiples of the \
+faster formula's time.\n\n{table}"
+        );
+    }
+    page::finish("sphere_slices", effort, &text)
 }
