@@ -84,14 +84,16 @@ fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
 #[cold]
 #[inline(never)]
 fn from_the_surface(line: &Line, chord: &Chord<f64>) -> Nearest {
-    let Chord { a, h, distance_squared, .. } = *chord;
-    let (power, error) = surface::closest_power(line.o(), line.radius);
+    let Chord { a, h, distance_squared, power, .. } = *chord;
     // With h² > clear a m, h errs by less than the plain step's roots.
     if line.radius < 0.0
-        || power.hi != 0.0
-        || error != 0.0
+        || power.abs() > plain::SURE_SIGN * distance_squared
         || h * h <= CLEAR * (a * distance_squared)
     {
+        return Nearest::Doubt;
+    }
+    let (power, error) = surface::closest_power(line.o(), line.radius);
+    if power.hi != 0.0 || error != 0.0 {
         Nearest::Doubt
     } else if h < 0.0 {
         Nearest::Miss

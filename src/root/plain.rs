@@ -54,7 +54,7 @@ const POWER_ERROR: f64 = 7.0 * U;
 const SURE_MISS: f64 = DISCRIMINANT_ERROR + U;
 
 /// Beyond this part of m, the sign of the power is certain.
-const SURE_SIGN: f64 = POWER_ERROR + U;
+pub(super) const SURE_SIGN: f64 = POWER_ERROR + U;
 
 /// The relative error of an accepted root, times `clear`: 7 u and 10.5 u, and half a u for the rest.
 pub(super) const ROOT_ERROR: f64 = POWER_ERROR + DISCRIMINANT_ERROR / 2.0 + U / 2.0;
