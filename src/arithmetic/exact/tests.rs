@@ -259,3 +259,44 @@ fn a_carry_runs_through_all_digits() {
         }
     }
 }
+
+#[test]
+fn terms_are_combined_exactly_where_they_fit() {
+    let mut random = Random::new(9);
+    let (mut fits, mut apart) = (0, 0);
+    for _ in 0..5000 {
+        // Of any bits, next to each other or far apart.
+        let span = random.integer(0..=90);
+        let terms = [0; 4].map(|_| {
+            let (integer, other) = (random_factor(&mut random).0, random_factor(&mut random).0);
+            let zero = random.below(8) == 0;
+            Term::new(
+                if zero { 0 } else { (integer * other).integer },
+                i32::try_from(random.integer(0..=span)).unwrap(),
+            )
+        });
+        let exact = |terms: [Term; 4]| {
+            total(terms.map(|term| {
+                let [high, low] = [term.integer >> 62, term.integer & ((1 << 62) - 1)]
+                    .map(|part| i64::try_from(part).expect("124 bits and a sign"));
+                let exponent = i64::from(term.exponent);
+                &Dyadic::new(high, exponent + 62) + &Dyadic::new(low, exponent)
+            }))
+        };
+        let combined = Term::combined(terms);
+        assert_eq!(exact(combined), exact(terms), "{terms:?}");
+        let count = |terms: [Term; 4]| terms.into_iter().filter(|term| !term.is_zero()).count();
+        assert!(count(combined) <= count(terms), "{terms:?}");
+        // First those that are not zero.
+        let places = combined.map(|term| !term.is_zero());
+        assert!(places.is_sorted_by(|a, b| a >= b), "{combined:?}");
+        assert!(combined.iter().all(|term| term.integer.unsigned_abs() < 1 << Term::BITS));
+        if span <= 12 {
+            // 108 bits, 12 places and the sum of four.
+            assert!(count(combined) <= 1, "{terms:?}");
+            fits += 1;
+        }
+        apart += u32::from(count(combined) > 1);
+    }
+    assert!(fits > 500 && apart > 500, "{fits} fit, {apart} do not");
+}

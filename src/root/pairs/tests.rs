@@ -82,25 +82,70 @@ fn offsets_are_as_fine_as_themselves() {
     assert!(search_settings("offset in pairs, from afar", &ALMOST_IN_DOUBT, part) > 0.1);
 }
 
+/// The part of its bound that the error of the discriminant from the closest approach takes.
+fn part_of_moved(exact: &ExactChord, numbers: [f64; 10]) -> Option<f64> {
+    in_pairs(exact, numbers, |InPairs { half_chord, start, .. }| {
+        if start == 0.0 {
+            return None;
+        }
+        let line = ExactLine::new(numbers);
+        let larger = Dyadic::exactly(numbers[9]);
+        let reach = line.reach();
+        let size = &of(MOVED_ERROR, &(&exact.radius_squared() * &exact.a))
+            + &of(MOVED_REACH_ERROR, &(&reach * &(&larger * &length(&line.d))));
+        // And the rounding of both, and of the square root.
+        let bound = &(&size + &of(MOVED_ALONG_ERROR, &(&reach * &reach)))
+            + &of(16.0 * U, &exact.discriminant);
+        let square = &Dyadic::exactly(half_chord) * &Dyadic::exactly(half_chord);
+        Some(part_of_bound(&square, &exact.discriminant, &bound))
+    })
+}
+
 #[test]
 fn discriminants_from_the_closest_approach_keep_their_bound() {
-    let part = |exact: &ExactChord, numbers| {
-        in_pairs(exact, numbers, |InPairs { half_chord, start, .. }| {
-            if start == 0.0 {
-                return None;
-            }
-            let line = ExactLine::new(numbers);
-            let larger = Dyadic::exactly(numbers[9]);
-            let reach = line.reach();
-            let size = &of(MOVED_ERROR, &(&exact.radius_squared() * &exact.a))
-                + &of(MOVED_REACH_ERROR, &(&reach * &(&larger * &length(&line.d))));
-            let bound = &(&size + &of(MOVED_ALONG_ERROR, &(&reach * &reach)))
-                + &of(16.0 * U, &exact.discriminant);
-            let square = &Dyadic::exactly(half_chord) * &Dyadic::exactly(half_chord);
-            Some(part_of_bound(&square, &exact.discriminant, &bound))
-        })
-    };
-    assert!(search_settings("discriminant of the moved origin", &ALMOST_IN_DOUBT, part) > 0.1);
+    assert!(
+        search_settings("discriminant of the moved origin", &ALMOST_IN_DOUBT, part_of_moved) > 0.1
+    );
+}
+
+/// Next to a tangent from afar, with the direction (3, 4, 0) and the normal (-4, 3, 0): a radius that is longer by a few ulps than
+/// the line is off the center.
+fn next_to_a_tangent_from_afar(random: &mut Random) -> [f64; 10] {
+    let whole = |random: &mut Random, places: i32| (random.mantissa() * 2_f64.powi(places)).round();
+    let places = random.integer(20..=40);
+    let (long, along, off) = (whole(random, 20), whole(random, places), whole(random, 10));
+    let [x, y] = [0; 2].map(|_| whole(random, 20));
+    let center = [x + 3.0 * along - 4.0 * off, y + 4.0 * along + 3.0 * off];
+    let ulps = f64::from(random.integer(1..=100)) * f64::EPSILON;
+    [
+        center[0],
+        center[1],
+        0.0,
+        x,
+        y,
+        0.0,
+        3.0 * long,
+        4.0 * long,
+        0.0,
+        5.0 * off.abs() * (1.0 + ulps),
+    ]
+}
+
+#[test]
+fn discriminants_next_to_tangents_from_afar_keep_their_bound() {
+    let mut random = Random::new(11);
+    let (mut decided, count) = (0, 1000);
+    for _ in 0..count {
+        let numbers = next_to_a_tangent_from_afar(&mut random);
+        let exact = ExactChord::new(numbers);
+        let part = part_of_moved(&exact, numbers);
+        assert!(part.unwrap_or(0.0) <= 1.0, "{part:?} {numbers:?}");
+        decided += u32::from(part.is_some());
+        for part in [roots(&exact, numbers), points(&exact, numbers)].into_iter().flatten() {
+            assert!(part <= 1.0, "{numbers:?}");
+        }
+    }
+    assert!(decided > count / 2, "{decided} of {count}");
 }
 
 /// The larger part that one of the roots takes of its bound.
