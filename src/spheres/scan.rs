@@ -35,7 +35,8 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 /// On x86-64 with the feature `std`, AVX-512 (from Rust 1.89 on) or else AVX2 and FMA are used if the machine has them. Otherwise,
 /// the instructions are those that the crate is compiled for: SSE2 on x86-64, NEON on aarch64, in WebAssembly 128-bit SIMD with
 /// `-C target-feature=+simd128`, and more with `-C target-cpu`. The results are the same. In WebAssembly, in Node.js, 1,024 spheres
-/// take 0.15 times as long as a loop over the textbook's formula, 46 take 0.4 times (`tests/targets/run`, in the repository).
+/// take 0.26 times as long as a loop over the textbook's formula, 46 take 0.4 times, and 8 as long (`tests/targets/run costs`, in
+/// the repository).
 ///
 /// ```
 /// use eyeray::{Ray, Sphere, Spheres};

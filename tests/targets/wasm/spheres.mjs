@@ -1,8 +1,9 @@
 // Times the module named on the command line: of each way to the nearest of many spheres the median, all ways in turn.
 import { readFile } from "node:fs/promises";
 
-const ROUNDS = 31;
-const RAYS = 1024;
+// Many short rounds: in a long one, the processor is shared.
+const ROUNDS = 201;
+const RAYS = 256;
 
 const { instance } = await WebAssembly.instantiate(await readFile(process.argv[2]));
 const { place, by_formula, by_slice, by_spheres } = instance.exports;
@@ -18,7 +19,7 @@ for (const count of [8, 46, 1024]) {
     place(count);
     if (by_slice() !== by_spheres()) throw new Error("`Spheres` differs from the slice");
     // Repeated so that the clock's resolution is small beside it.
-    const repeats = Math.ceil(2048 / count);
+    const repeats = Math.ceil(1024 / count);
     const times = ways.map(() => []);
     for (let round = 0; round < ROUNDS; round++) {
         ways.forEach((way, i) => {

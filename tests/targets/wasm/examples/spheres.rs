@@ -13,7 +13,7 @@ use families::Rng;
 use glam::Vec3;
 
 const ALL: Range<f32> = 0.0..f32::INFINITY;
-const RAYS: usize = 1024;
+const RAYS: usize = 256;
 
 /// Spheres, and the rays to ask for.
 struct Scene {
