@@ -112,23 +112,13 @@ fn discriminants_from_the_closest_approach_keep_their_bound() {
 /// the line is off the center.
 fn next_to_a_tangent_from_afar(random: &mut Random) -> [f64; 10] {
     let whole = |random: &mut Random, places: i32| (random.mantissa() * 2_f64.powi(places)).round();
-    let places = random.integer(20..=40);
+    // The origin is off the line through the center, which may be so far away that the difference takes a pair.
+    let places = random.integer(20..=45);
     let (long, along, off) = (whole(random, 20), whole(random, places), whole(random, 10));
-    let [x, y] = [0; 2].map(|_| whole(random, 20));
-    let center = [x + 3.0 * along - 4.0 * off, y + 4.0 * along + 3.0 * off];
+    let along = along * 2_f64.powi(random.integer(0..=60));
     let ulps = f64::from(random.integer(1..=100)) * f64::EPSILON;
-    [
-        center[0],
-        center[1],
-        0.0,
-        x,
-        y,
-        0.0,
-        3.0 * long,
-        4.0 * long,
-        0.0,
-        5.0 * off.abs() * (1.0 + ulps),
-    ]
+    let radius = 5.0 * off.abs() * (1.0 + ulps);
+    [3.0 * along, 4.0 * along, 0.0, 4.0 * off, -3.0 * off, 0.0, 3.0 * long, 4.0 * long, 0.0, radius]
 }
 
 #[test]
@@ -145,7 +135,7 @@ fn discriminants_next_to_tangents_from_afar_keep_their_bound() {
             assert!(part <= 1.0, "{numbers:?}");
         }
     }
-    assert!(decided > count / 2, "{decided} of {count}");
+    assert!(decided > count / 3, "{decided} of {count}");
 }
 
 /// The larger part that one of the roots takes of its bound.
