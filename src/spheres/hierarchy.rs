@@ -3,7 +3,9 @@
 mod boxes;
 mod build;
 mod leaf;
+mod split;
 mod walk;
+mod wide;
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -30,15 +32,15 @@ use crate::{Hit, Hittable, Ray, Sphere};
 /// # When to use it
 ///
 /// For more than some hundred spheres that stay as they are. They cannot be changed, only collected again, which takes less than half
-/// a second for a million. It takes 26 bytes a sphere. For few spheres it is a [`Spheres`], which can also be changed one by one.
+/// a second for a million. It takes 26 to 32 bytes a sphere. For few spheres it is a [`Spheres`], which can also be changed one by one.
 /// (In the repository, `cargo bench --manifest-path benches/peers/Cargo.toml --bench many_spheres` measures it beside other
 /// libraries.)
 ///
 /// # How
 ///
 /// Nodes are 16 boxes wide, and leaves 16 spheres, as wide as the widest vectors (Wald, Benthin and Boulos, *Getting Rid of
-/// Packets*, 2008). Every block is full, so the tree is implicit and has no pointers. The instructions are those that
-/// [`Spheres`] uses.
+/// Packets*, 2008). A surface-area heuristic sorts the spheres into them, and prefers to fill them. The instructions are those
+/// that [`Spheres`] uses.
 ///
 /// ```
 /// use eyeray::{Ray, Sphere, SphereBvh};
@@ -64,17 +66,14 @@ enum Shape {
     Tree(Tree),
 }
 
-/// The spheres in leaves of 16, and the leaves in boxes, 16 to a node, up to one root. All are full but the last of each level:
-/// the children of node n are the nodes from 16 n on of the level below, and no pointers are kept.
+/// The spheres in leaves of up to 16, and the leaves in boxes, up to 16 to a node. The children of a node lie together: first its
+/// leaves among all leaves, then its nodes among all nodes.
 #[derive(Clone, Debug)]
 struct Tree {
     leaves: Vec<Leaf>,
-    /// The levels above the leaves, the root first.
     nodes: Vec<Boxes>,
-    /// Where in `nodes` each level begins. Level 0 is that of the leaves.
-    first: [u32; LEVELS],
-    /// The level of the root.
-    top: u32,
+    /// Where a ray begins: the first of the nodes or of the leaves.
+    root: u32,
     /// The largest coordinate of all boxes.
     largest_coordinate: f32,
     /// The spheres whose boxes would make those of all others useless, and what cannot be computed with, by ascending index.
@@ -87,8 +86,8 @@ struct Tree {
     places: Vec<u32>,
 }
 
-/// 16⁸ = 2³² spheres would have leaves and 7 levels above them.
-const LEVELS: usize = 8;
+/// The bit that tells the number of a leaf from that of a node.
+const LEAF: u32 = 1 << 31;
 
 impl SphereBvh {
     /// Returns the number of spheres.

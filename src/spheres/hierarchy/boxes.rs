@@ -32,6 +32,7 @@
 
 use glam::{Vec3, Vec4};
 
+use super::LEAF;
 use crate::Ray;
 use crate::spheres::lanes::{Instructions, LANES};
 
@@ -50,18 +51,45 @@ pub(super) const LEAST_COORDINATE: f32 = f32::from_bits((127 - 60) << 23); // 2^
 pub(super) struct Boxes {
     /// By axis, the low ones and the high ones.
     planes: [[[f32; LANES]; 2]; 3],
+    /// What the first box is if it is a leaf, and what it is if not, so that box n is `leaf + n` or `node + n`.
+    leaf: u32,
+    node: u32,
+    /// How many of the boxes, the first, are leaves.
+    leaves: u32,
 }
 
 impl Boxes {
     /// No boxes: no ray enters one.
-    pub(super) const EMPTY: Self =
-        Self { planes: [[[f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]]; 3] };
+    pub(super) const EMPTY: Self = Self {
+        planes: [[[f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]]; 3],
+        leaf: 0,
+        node: 0,
+        leaves: 0,
+    };
+
+    /// The first boxes are these leaves, and the others these nodes.
+    pub(super) fn set_children(&mut self, leaf: u32, node: u32, leaves: u32) {
+        (self.leaf, self.node, self.leaves) = (leaf | LEAF, node.wrapping_sub(leaves), leaves);
+    }
+
+    /// What is in a box.
+    #[inline(always)]
+    pub(super) fn child(&self, lane: u32) -> u32 {
+        lane.wrapping_add(if lane < self.leaves { self.leaf } else { self.node })
+    }
 
     /// Puts a box into a lane.
     pub(super) fn set(&mut self, lane: usize, (low, high): (Vec3, Vec3)) {
         for (axis, [lows, highs]) in self.planes.iter_mut().enumerate() {
             (lows[lane], highs[lane]) = (low[axis], high[axis]);
         }
+    }
+
+    /// The box of a lane.
+    #[cfg(test)]
+    pub(super) fn bounds_of(&self, lane: usize) -> (Vec3, Vec3) {
+        let low = self.planes.map(|[low, _]| low[lane]);
+        (low.into(), self.planes.map(|[_, high]| high[lane]).into())
     }
 
     /// The box around all of them.

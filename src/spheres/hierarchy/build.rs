@@ -1,16 +1,14 @@
 //! Sorts spheres into the hierarchy.
-//!
-//! The spheres are halved by the median of their centers, along the axis on which these are farthest apart, until 16 are left:
-//! a leaf. Each half is rounded to whole subtrees, so that every block of 16 is full. A surface-area heuristic in place of the
-//! median, which costs as much to build as all else, was faster by a tenth among clusters, and slower on a plane.
 
 use alloc::vec::Vec;
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
-use super::boxes::{Boxes, LEAST_COORDINATE};
-use super::leaf::Leaf;
-use super::{LEVELS, Shape, SphereBvh, Tree};
+use super::boxes::LEAST_COORDINATE;
+use super::leaf::{Leaf, NONE};
+use super::split::split_up;
+use super::wide::Wide;
+use super::{Shape, SphereBvh, Tree};
 use crate::Sphere;
 use crate::spheres::Spheres;
 use crate::spheres::filter::{can_be_met, is_in_reach};
@@ -19,8 +17,8 @@ use crate::spheres::lanes::{LANES, Lanes};
 /// Up to so many spheres, as a multiple of the numbers in a vector, a scan takes no longer than the hierarchy.
 const FEW: usize = 20;
 
-/// How many spheres a hierarchy has at most: the places of all, and of the lanes of the last leaf, are numbers of 32 bits.
-const MOST: usize = u32::MAX as usize - LANES;
+/// How many spheres a hierarchy has at most: the places of all, with the lanes of leaves that are not full, are numbers of 32 bits.
+pub(super) const MOST: usize = 1 << 31;
 
 /// How many large spheres are kept apart at most: one block for the scan to filter.
 const APART: usize = LANES;
@@ -30,9 +28,20 @@ const LARGE: f32 = 4.0;
 
 /// A sphere, and its place in the order in which the spheres were given.
 #[derive(Clone, Copy)]
-struct Member {
-    sphere: Sphere,
-    index: u32,
+pub(super) struct Member {
+    /// The center and the radius, in a vector.
+    pub(super) sphere: Vec4,
+    pub(super) index: u32,
+}
+
+impl Member {
+    pub(super) fn new(index: u32, Sphere { center, radius }: Sphere) -> Self {
+        Self { sphere: center.extend(radius), index }
+    }
+
+    fn sphere(&self) -> Sphere {
+        Sphere::new(self.sphere.truncate(), self.sphere.w)
+    }
 }
 
 impl From<Spheres> for SphereBvh {
@@ -57,47 +66,32 @@ impl Tree {
             } else {
                 &mut members
             };
-            kind.push(Member { sphere, index });
+            kind.push(Member::new(index, sphere));
         }
         set_apart_the_large(&mut members, &mut apart);
         apart.sort_unstable_by_key(|member| member.index);
-        arrange(&mut members);
-
-        let leaves: Vec<Leaf> = members.chunks(LANES).filter_map(leaf).collect();
-        let mut bounds: Vec<(Vec3, Vec3)> = members.chunks(LANES).map(bounds_of).collect();
-        let largest_coordinate = bounds
-            .iter()
-            .map(|(low, high)| low.abs().max(high.abs()).max_element())
-            .fold(LEAST_COORDINATE, f32::max);
-        let mut levels: Vec<Vec<Boxes>> = Vec::new();
-        while bounds.len() > 1 {
-            let level: Vec<Boxes> = bounds.chunks(LANES).map(node).collect();
-            bounds = level.iter().map(Boxes::bounds).collect();
-            levels.push(level);
-        }
-        let mut first = [0; LEVELS];
-        let mut nodes = Vec::with_capacity(levels.iter().map(Vec::len).sum());
-        for (level, boxes) in levels.iter().enumerate().rev() {
-            first[level + 1] = number(nodes.len());
-            nodes.extend_from_slice(boxes);
+        let splits = split_up(&mut members);
+        let mut wide = Wide::new(&members, &splits, alloc::vec![0; spheres.len()]);
+        let root = wide.make();
+        let Wide { leaves, nodes, mut places, .. } = wide;
+        let mut largest_coordinate = LEAST_COORDINATE;
+        if let Some(root) = nodes.first() {
+            let (low, high) = root.bounds();
+            largest_coordinate = largest_coordinate.max(low.abs().max(high.abs()).max_element());
         }
 
-        let mut places = alloc::vec![0; spheres.len()];
         let behind = number(leaves.len() * LANES);
-        for (place, member) in
-            (0..).zip(&members).chain((behind..).zip(apart.iter().chain(&unreachable)))
-        {
+        for (place, member) in (behind..).zip(apart.iter().chain(&unreachable)) {
             places[member.index as usize] = place;
         }
         Self {
             leaves,
             nodes,
-            first,
-            top: number(levels.len()),
+            root,
             largest_coordinate,
-            apart: apart.iter().map(|member| member.sphere).collect(),
+            apart: apart.iter().map(Member::sphere).collect(),
             apart_indices: apart.iter().map(|member| member.index).collect(),
-            unreachable: unreachable.iter().map(|member| member.sphere).collect(),
+            unreachable: unreachable.iter().map(Member::sphere).collect(),
             places,
         }
     }
@@ -105,44 +99,26 @@ impl Tree {
 
 /// A number that 32 bits hold, for there are at most [`MOST`] spheres.
 #[expect(clippy::cast_possible_truncation, reason = "it is not beyond them")]
-fn number(number: usize) -> u32 {
+pub(super) fn number(number: usize) -> u32 {
     number as u32
 }
 
-/// The leaf of up to 16 members. Lanes that are left have the first of them again: to meet it twice changes nothing.
-fn leaf(members: &[Member]) -> Option<Leaf> {
+/// The leaf of up to 16 members. In each lane that is left is a point, which hardly a ray comes near, with an index that tells it.
+pub(super) fn leaf(members: &[Member]) -> Option<Leaf> {
     let first = members.first()?;
-    let mut leaf = Leaf::filled(first.index, first.sphere);
+    let mut leaf = Leaf::filled(NONE, Sphere::new(first.sphere.truncate(), 0.0));
     for (lane, member) in members.iter().enumerate() {
-        leaf.set(lane, member.index, member.sphere);
+        leaf.set(lane, member.index, member.sphere());
     }
     Some(leaf)
 }
 
-/// The node of up to 16 boxes.
-fn node(bounds: &[(Vec3, Vec3)]) -> Boxes {
-    let mut boxes = Boxes::EMPTY;
-    for (lane, &bounds) in bounds.iter().enumerate() {
-        boxes.set(lane, bounds);
-    }
-    boxes
-}
-
 /// The box around the members.
-fn bounds_of(members: &[Member]) -> (Vec3, Vec3) {
+pub(super) fn bounds_of(members: &[Member]) -> (Vec3, Vec3) {
     members.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), member| {
-        let bounds = member.sphere.bounds();
+        let bounds = member.sphere().bounds();
         (low.min(bounds.0), high.max(bounds.1))
     })
-}
-
-/// How far apart the centers are, on each axis.
-fn extent(members: &[Member]) -> Vec3 {
-    let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    let (low, high) = members.iter().fold(none, |(low, high), member| {
-        (low.min(member.sphere.center), high.max(member.sphere.center))
-    });
-    high - low
 }
 
 /// Moves the few members that are as large as all others together, such as the ground that they stand on: every box that held
@@ -152,30 +128,15 @@ fn set_apart_the_large(members: &mut Vec<Member>, apart: &mut Vec<Member>) {
         return;
     }
     let others = members.len() - APART;
-    members.select_nth_unstable_by(others, |a, b| a.sphere.radius.total_cmp(&b.sphere.radius));
-    let large = extent(&members[..others]).max_element() / LARGE;
+    members.select_nth_unstable_by(others, |a, b| a.sphere.w.total_cmp(&b.sphere.w));
+    let none = (Vec4::INFINITY, Vec4::NEG_INFINITY);
+    let (low, high) = members[..others]
+        .iter()
+        .fold(none, |(low, high), member| (low.min(member.sphere), high.max(member.sphere)));
+    let large = (high - low).truncate().max_element() / LARGE;
     for place in (others..members.len()).rev() {
-        if members[place].sphere.radius > large {
+        if members[place].sphere.w > large {
             apart.push(members.swap_remove(place));
         }
-    }
-}
-
-/// Sorts the members so that 16 of them in a row are a leaf, 16 leaves in a row a node, and so on.
-fn arrange(mut members: &mut [Member]) {
-    while members.len() > LANES {
-        // The spheres below a child of the node that is split up.
-        let mut child = LANES;
-        while child * LANES < members.len() {
-            child *= LANES;
-        }
-        let half = members.len().div_ceil(child) / 2 * child;
-        let axis = extent(members).max_position();
-        members.select_nth_unstable_by(half, |a, b| {
-            a.sphere.center[axis].total_cmp(&b.sphere.center[axis])
-        });
-        let (left, right) = members.split_at_mut(half);
-        arrange(left);
-        members = right;
     }
 }

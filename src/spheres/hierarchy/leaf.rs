@@ -51,7 +51,10 @@ const DISTANCE_MARGIN: f32 = 6.0 * f32::EPSILON;
 /// What is added to every radius: more than underflow can take from it.
 const LEAST: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
 
-/// 16 spheres.
+/// The index in a lane without a sphere.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Up to 16 spheres.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Leaf {
@@ -59,7 +62,7 @@ pub(super) struct Leaf {
     y: [f32; LANES],
     z: [f32; LANES],
     radius: [f32; LANES],
-    /// Of each, its place in the order in which the spheres were given.
+    /// Of each, its place in the order in which the spheres were given, or [`NONE`].
     index: [u32; LANES],
 }
 

@@ -5,26 +5,24 @@ use core::ops::Range;
 use arrayvec::ArrayVec;
 
 use super::boxes::{self, Boxes, Slabs};
-use super::leaf::{Leaf, Tube};
-use super::{LEVELS, Tree};
+use super::leaf::{Leaf, NONE, Tube};
+use super::split::DEEPEST;
+use super::{LEAF, Tree};
 use crate::float::sqrt;
 use crate::spheres::filter::Segment;
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
 use crate::{Hit, Hittable, Ray, Sphere};
 
-/// What waits to be visited: of each level below the root, at most all children of a node but one.
-const MOST_WAITING: usize = (LEVELS - 1) * (LANES - 1);
+/// How much waits to be visited at most: of each node on the way to a leaf, all children but one.
+const MOST_WAITING: usize = DEEPEST * (LANES - 1);
 
 /// A node or a leaf that waits, and where the ray enters its box: the bits of that distance, which is not negative, are above
-/// those of the level and of the place in it. So the nearer has the lower key.
+/// those of what it is. So the nearer has the lower key.
 type Key = u64;
 
-/// The bits of a place in a level; those above are the level's.
-const PLACE_BITS: u32 = 28;
-
 #[inline(always)]
-fn key(entry: f32, level_and_place: u32) -> Key {
-    u64::from(entry.to_bits()) << 32 | u64::from(level_and_place)
+fn key(entry: f32, child: u32) -> Key {
+    u64::from(entry.to_bits()) << 32 | u64::from(child)
 }
 
 /// Where the ray enters the box.
@@ -33,12 +31,12 @@ fn entry(key: Key) -> f32 {
     f32::from_bits((key >> 32) as u32)
 }
 
-/// The level and the place in it.
+/// What it is.
 #[inline(always)]
-fn level_and_place(key: Key) -> (u32, u32) {
+fn child(key: Key) -> u32 {
     #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
-    let bits = key as u32;
-    (bits >> PLACE_BITS, bits & ((1 << PLACE_BITS) - 1))
+    let child = key as u32;
+    child
 }
 
 /// The float after one that is positive and finite.
@@ -67,15 +65,16 @@ struct Query {
 impl Query {
     /// Of these spheres of the last leaf, the one that the ray probably enters first.
     #[inline(never)]
-    fn first_of(&self, mut near: u32, length: f64) -> usize {
+    fn first_of(&self, mut near: u32, length: f32) -> usize {
         let mut first = near.trailing_zeros() as usize % LANES;
-        let mut least = f64::INFINITY;
+        let mut least = f32::INFINITY;
         while near != 0 {
             let lane = near.trailing_zeros() as usize % LANES;
             near &= near - 1;
             // How far the closest approach is, less the half-chord.
-            let half_chord = sqrt(f64::from(-self.clearances.0[lane]));
-            let entry = f64::from(self.entries.0[lane]) * length - half_chord;
+            #[expect(clippy::cast_possible_truncation, reason = "it is that of an f32")]
+            let half_chord = sqrt(f64::from(-self.clearances.0[lane])) as f32;
+            let entry = self.entries.0[lane] * length - half_chord;
             if entry < least {
                 (first, least) = (lane, entry);
             }
@@ -137,19 +136,22 @@ impl Tree {
         };
         // Not cleared first: that would take as long as some visits.
         let mut waiting = ArrayVec::<Key, MOST_WAITING>::new();
-        let mut next = key(0.0, self.top << PLACE_BITS);
+        let mut next = key(0.0, self.root);
         loop {
-            let (level, place) = level_and_place(next);
-            if level == 0 {
-                let Some(leaf) = self.leaves.get(place as usize) else { return };
+            let place = child(next);
+            if place & LEAF != 0 {
+                let Some(leaf) = self.leaves.get((place & !LEAF) as usize) else { return };
                 let mut near = lanes.run(Near { leaf, query: &mut query });
                 while near != 0 {
                     let lane = if near.is_power_of_two() {
                         near.trailing_zeros() as usize % LANES
                     } else {
-                        query.first_of(near, f64::from(ray.direction.length()))
+                        query.first_of(near, ray.direction.length())
                     };
                     near &= !(1 << lane);
+                    if leaf.index(lane) == NONE {
+                        continue;
+                    }
                     if let Some(end) = ask(leaf.index(lane), &leaf.sphere(lane), query.end) {
                         if end < 0.0 {
                             return;
@@ -162,22 +164,33 @@ impl Tree {
                     }
                 }
             } else {
-                let node = self.first[level as usize % LEVELS] + place;
-                let Some(node) = self.nodes.get(node as usize) else { return };
+                let Some(node) = self.nodes.get(place as usize) else { return };
                 let mut entered = lanes.run(Enter { node, query: &mut query });
                 if entered != 0 {
-                    let first_child = (level - 1) << PLACE_BITS | place << LANES.trailing_zeros();
-                    next = Key::MAX;
-                    while entered != 0 {
+                    let entries = &query.entries.0;
+                    let mut take = || {
                         let lane = entered.trailing_zeros();
                         entered &= entered - 1;
-                        let child = key(query.entries.0[lane as usize % LANES], first_child + lane);
-                        let farther = next.max(child);
-                        next = next.min(child);
-                        if farther != Key::MAX {
-                            // There is room for all.
-                            let _ = waiting.try_push(farther);
+                        (key(entries[lane as usize % LANES], node.child(lane)), entered != 0)
+                    };
+                    // The nearest is next, and of those that wait the second is taken first; the others as they come.
+                    let (first, mut are_more) = take();
+                    next = first;
+                    if are_more {
+                        let mut second = Key::MAX;
+                        while are_more {
+                            let child;
+                            (child, are_more) = take();
+                            let farther = next.max(child);
+                            next = next.min(child);
+                            let third = second.max(farther);
+                            second = second.min(farther);
+                            if third != Key::MAX {
+                                // There is room for all.
+                                let _ = waiting.try_push(third);
+                            }
                         }
+                        let _ = waiting.try_push(second);
                     }
                     continue;
                 }
