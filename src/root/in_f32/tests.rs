@@ -1,10 +1,12 @@
+use glam::DVec3;
+
 use super::*;
 use crate::geometric::ClosestApproach;
 use crate::root::crossing::{Question, Verdict};
 use crate::root::format::Format;
 use crate::root::tests::{line, parts_of_tolerance, single};
 use crate::root::{in_f64, pairs};
-use crate::testing::{Dyadic, ExactChord, Lie, Random, nearest, search, setting};
+use crate::testing::{Dyadic, ExactChord, Lie, Random, nearest, part_of_bound, search, setting};
 
 #[expect(clippy::duplicate_mod, reason = "other unit tests take it, too")]
 #[path = "../../../tests/support/families.rs"]
@@ -179,4 +181,46 @@ fn points_keep_their_tolerance() {
         nearest_again(&sphere, &ray, &line, 0.0..f32::INFINITY).map(part)
     };
     assert!(search("point of the plain step in f32", 80, 150, start, part) > 0.03);
+}
+
+#[test]
+#[expect(clippy::cast_possible_truncation, reason = "t is rounded already")]
+fn roots_and_points_from_afar_keep_their_bounds() {
+    let mut random = Random::new(4);
+    let (mut certain, mut worst) = (0, [0.0_f64; 2]);
+    for _ in 0..8000 {
+        // Of all distances, and from the middle to the limb.
+        let radius_squared = 2_f64.powi(-random.integer(15..=66));
+        let chord_squared = radius_squared * 2_f64.powi(-random.integer(1..=40));
+        let lie = Lie { power: 1.0 - radius_squared, discriminant: chord_squared };
+        let mut numbers = setting(&mut random, lie);
+        let [cx, cy, cz, px, py, pz, ..] = numbers;
+        numbers[9] = radius_squared.sqrt() * DVec3::new(cx - px, cy - py, cz - pz).length();
+        let setting = Setting::of(line(numbers));
+        let chord = setting.chord::<Quadratic>();
+        let exact = ExactChord::new(numbers);
+        match half_chord_from_afar(&setting) {
+            Verdict::Miss => assert!(exact.discriminant.is_negative(), "{numbers:?}"),
+            Verdict::Hit(half_chord) => {
+                let roots = exact.roots().expect("this hits");
+                let Both::Roots { t, .. } = Both::from_half_chord(&chord, half_chord) else {
+                    panic!("there are roots");
+                };
+                for (t, exact) in t.into_iter().zip(&roots) {
+                    let bound = &Dyadic::exactly(plain::ROOT_ERROR / CLEAR) * &exact.clone().abs();
+                    worst[0] = worst[0].max(part_of_bound(&Dyadic::exactly(t), exact, &bound));
+                }
+                let Nearest::Root { t, .. } = from_afar(&setting, &chord) else { continue };
+                let found = setting.found_from_afar(&chord, t as f32);
+                let tolerance = Format::F32.point_tolerance();
+                let parts = parts_of_tolerance(numbers, &roots[0], &found, tolerance);
+                worst[1] = worst[1].max(parts[0]).max(parts[1]);
+                certain += 1;
+            }
+            Verdict::Doubt => {}
+        }
+    }
+    println!("from afar: {} of the bound of roots, {} of points", worst[0], worst[1]);
+    assert!(worst.iter().all(|part| *part <= 1.0) && worst[1] > 0.03, "{worst:?}");
+    assert!(certain > 500, "{certain}");
 }
