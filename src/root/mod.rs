@@ -7,11 +7,11 @@
 //! | step | arithmetic | error known by | decides | ns, of a family |
 //! |:--|:--|:--|:--|:--|
 //! | [`plain`] | `f64` | one bound for all cases | hit, miss and root in `f32`; hit and miss in `f64` | 7, "inside" in `f32` |
-//! | [`halves`] | `f64`, exact in the leading 26 bits | one bound for all cases | the root in `f64` | 21, "inside" in `f64` |
-//! | again | `f64` with a finer power, or by the closest approach with a bound of the case ([`bounded`]) | the same | `f32` close to the surface and from afar | 14, "on the surface" in `f32` |
-//! | [`surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface | 50, "on the surface" in `f64` |
-//! | [`pairs`] | offsets and powers in pairs of `f64`, the rest in `f64` | a bound of the case | the limb, and from afar in `f64` | 77, "at the limb from afar" in `f64` |
-//! | [`integers`] | integers of 64 bits, or any | exact | tangents, ties | 160 and 170, "exact tangent" |
+//! | [`halves`] | `f64`, exact in the leading 26 bits | one bound for all cases | the root in `f64` | 22, "inside" in `f64` |
+//! | again | `f64` with a finer power, or by the closest approach with a bound of the case ([`bounded`]) | the same | `f32` close to the surface and from afar | 13, "on the surface" in `f32` |
+//! | [`surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface | 54, "on the surface" in `f64` |
+//! | [`pairs`] | offsets and powers in pairs of `f64`, the rest in `f64` | a bound of the case | the limb, and from afar in `f64` | 86, "at the limb from afar" in `f64` |
+//! | [`integers`] | integers of 64 bits, or any | exact | tangents, ties | 173 and 171, "exact tangent" |
 //!
 //! How many in a hundred each decides (`cargo test --release --lib how_often -- --nocapture` has every family; "again" counts
 //! [`surface`], and a root compared with the midpoint of two floats counts as integers in `f32`):
