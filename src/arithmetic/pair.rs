@@ -112,7 +112,7 @@ fn split(a: f64) -> (f64, f64) {
 }
 
 /// `a·b`, as `hi`, the dot product that plain arithmetic gives, and `lo`, very nearly its error: their sum is off by at most
-/// [`COMPENSATED_DOT_ERROR`].
+/// `COMPENSATED_DOT_ERROR`.
 ///
 /// Ogita, Rump and Oishi, *Accurate Sum and Dot Product* (2005).
 #[cfg_attr(not(target_os = "none"), inline(always))]
@@ -138,7 +138,7 @@ impl Pair {
         Self { hi: product.hi, lo: low + self.lo * factor }
     }
 
-    /// The square root of a positive pair: relative error at most [`ROOT_ERROR`].
+    /// The square root of a positive pair: relative error at most `ROOT_ERROR`.
     ///
     /// One step of Newton's from the square root of `hi`.
     pub(crate) fn sqrt(self) -> Self {
@@ -168,7 +168,7 @@ impl Neg for Pair {
 impl Add for Pair {
     type Output = Self;
 
-    /// Error at most [`SUM_ERROR`].
+    /// Error at most `SUM_ERROR`.
     #[cfg_attr(not(target_os = "none"), inline(always))]
     #[cfg_attr(target_os = "none", inline(never))]
     fn add(self, other: Self) -> Self {
@@ -180,7 +180,7 @@ impl Add for Pair {
 impl Sub for Pair {
     type Output = Self;
 
-    /// Error at most [`SUM_ERROR`].
+    /// Error at most `SUM_ERROR`.
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
         self + -other
@@ -190,7 +190,7 @@ impl Sub for Pair {
 impl Mul for Pair {
     type Output = Self;
 
-    /// Relative error at most [`PRODUCT_ERROR`].
+    /// Relative error at most `PRODUCT_ERROR`.
     #[cfg_attr(not(target_os = "none"), inline(always))]
     #[cfg_attr(target_os = "none", inline(never))]
     fn mul(self, other: Self) -> Self {
@@ -202,7 +202,7 @@ impl Mul for Pair {
 impl Div for Pair {
     type Output = Self;
 
-    /// Relative error at most [`QUOTIENT_ERROR`].
+    /// Relative error at most `QUOTIENT_ERROR`.
     #[cfg_attr(not(target_os = "none"), inline(always))]
     #[cfg_attr(target_os = "none", inline(never))]
     fn div(self, other: Self) -> Self {

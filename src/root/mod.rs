@@ -2,7 +2,7 @@
 //!
 //! A [`chord`] is what both derivations find: how far away the line passes, and where. The way from there to the root reads
 //! downwards in this table; [`in_f32`] and [`in_f64`] are where it begins, in the user's code, and from `pairs` on it is one
-//! function for both precisions. [`format`] rounds, and [`crossing`] chooses the root that a ray hits.
+//! function for both precisions. [`format`](mod@format) rounds, and [`crossing`] chooses the root that a ray hits.
 //!
 //! | step | arithmetic | error known by | decides | ns, of a family |
 //! |:--|:--|:--|:--|:--|
