@@ -18,6 +18,9 @@ mod tests;
 /// u = 2⁻⁵³, the rounding error of an `f64` operation.
 pub(crate) const U: f64 = f64::EPSILON / 2.0;
 
+/// 2⁻⁹⁰⁰: far enough above the subnormal numbers for a product to be a pair, and for a pair to be whole.
+pub(crate) const LEAST_PAIR: f64 = f64::from_bits((1023 - 900) << 52);
+
 /// v = u² = 2⁻¹⁰⁶.
 pub(crate) const V: f64 = U * U;
 /// Of a sum or a difference of pairs, in |a| + |b|.
@@ -132,9 +135,8 @@ impl Pair {
     #[cfg_attr(not(target_os = "none"), inline(always))]
     #[cfg_attr(target_os = "none", inline(never))]
     pub(crate) fn times(self, factor: f64) -> Self {
-        const SMALL: f64 = f64::from_bits((1023 - 900) << 52); // 2^-900
         let product = two_product(self.hi, factor);
-        let low = if product.hi.abs() < SMALL { 0.0 } else { product.lo };
+        let low = if product.hi.abs() < LEAST_PAIR { 0.0 } else { product.lo };
         Self { hi: product.hi, lo: low + self.lo * factor }
     }
 

@@ -25,6 +25,7 @@ mod tests;
 const DISCRIMINANT_ERROR: f64 = 8.0 * U;
 /// Of the discriminant too, in P².
 const MOMENT_ERROR_SQUARED: f64 = 10.0 * U * U;
+
 /// The chord by the closest approach, with the error of its discriminant.
 pub(super) struct Bounded {
     pub(super) chord: Chord<f64>,

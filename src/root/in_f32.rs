@@ -68,6 +68,12 @@ impl Setting {
         let normal = offset * line.radius.recip();
         Found { t: rounded.into(), point: line.center + offset, normal }
     }
+
+    /// The power where the plain one is too small to be certain.
+    #[inline(always)]
+    fn fine_power(&self, chord: &Chord<f64>) -> f64 {
+        halves::power(self.line, self.o, chord.distance_squared.max(self.radius_squared))
+    }
 }
 
 /// Rounds a root of the plain step that is close to the middle of two `f32`.
@@ -80,7 +86,7 @@ fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
     Format::F32.round(t.into(), plain::ROOT_ERROR / CLEAR, compare).map(|t| t as f32)
 }
 
-/// The nearest root of a line that starts exactly on the surface: its roots are 0 and 2 h / a.
+/// Finds the nearest root of a line that starts exactly on the surface: its roots are 0 and 2 h / a.
 #[cold]
 #[inline(never)]
 fn from_the_surface(line: &Line, chord: &Chord<f64>) -> Nearest {
@@ -102,8 +108,8 @@ fn from_the_surface(line: &Line, chord: &Chord<f64>) -> Nearest {
     }
 }
 
-/// The nearest hit where the plain step is in doubt: once more, with a finer power close to the surface, and with the bound of
-/// the case from afar.
+/// Finds the nearest hit where the plain step is in doubt: with a finer power close to the surface, and with the bound of the case
+/// from afar.
 #[cold]
 #[inline(never)]
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
@@ -117,44 +123,35 @@ fn nearest_again(
     let chord = setting.chord::<Quadratic>();
     let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
     let nearest = if is_far { from_afar(&setting, &chord) } else { again(&setting, line, &chord) };
-    let Nearest::Root { t, half_chord } = nearest else {
-        if matches!(nearest, Nearest::Miss) {
-            return None;
+    let rounded = match nearest {
+        Nearest::Miss => return None,
+        Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) => Some((t, t as f32)),
+        Nearest::Root { t, half_chord } => {
+            round_carefully(line, t, half_chord).map(|rounded| (t, rounded))
         }
-        return nearest_carefully(line, Format::F32, start.into()..end.into());
-    };
-    let rounded = if rounds_safely::<MARGIN>(t) {
-        Some(t as f32)
-    } else {
-        round_carefully(line, t, half_chord)
+        Nearest::Doubt => None,
     };
     // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
-    match rounded {
-        Some(rounded) if rounded >= start && rounded >= f32::MIN_POSITIVE => {
-            (rounded < end).then(|| {
-                if is_far {
-                    setting.found_from_afar(&chord, rounded)
-                } else {
-                    setting.found(t, rounded)
-                }
-            })
-        }
-        _ => nearest_carefully(line, Format::F32, start.into()..end.into()),
-    }
+    let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
+    let Some((t, rounded)) = rounded.filter(|(_, rounded)| is_certain(*rounded)) else {
+        return nearest_carefully(line, Format::F32, start.into()..end.into());
+    };
+    (rounded < end).then(|| {
+        if is_far { setting.found_from_afar(&chord, rounded) } else { setting.found(t, rounded) }
+    })
 }
 
-/// The nearest root ahead, with a finer power.
+/// Finds the nearest root ahead with a finer power.
 #[inline(always)]
 fn again(setting: &Setting, line: &Line, chord: &Chord<f64>) -> Nearest {
-    let larger = chord.distance_squared.max(setting.radius_squared);
-    let fine_power = || Some(halves::power(setting.line, setting.o, larger));
+    let fine_power = || Some(setting.fine_power(chord));
     match plain::nearest_ahead(chord, setting.radius_squared, CLEAR, fine_power) {
         Nearest::Doubt => from_the_surface(line, chord),
         nearest => nearest,
     }
 }
 
-/// Half the chord from farther than [`NEAR`], by the closest approach.
+/// Finds half the chord of a line from farther than [`NEAR`] by the closest approach.
 ///
 /// With the discriminant within e, half the chord s errs by e / 2 s, which counts against a sum of P or more in the root, and in the
 /// point against a radius, of which it is to be less than 2⁻²⁶.
@@ -179,7 +176,7 @@ fn half_chord_from_afar(setting: &Setting) -> Verdict<f64> {
     if is_certain { Verdict::Hit(half_chord) } else { Verdict::Doubt }
 }
 
-/// The nearest root ahead from there.
+/// Finds the nearest root ahead from farther than [`NEAR`].
 #[inline(always)]
 fn from_afar(setting: &Setting, &Chord { h, power, .. }: &Chord<f64>) -> Nearest {
     // Outside for sure: both roots lie on the side of the closest approach, as in the plain step.
@@ -193,7 +190,7 @@ fn from_afar(setting: &Setting, &Chord { h, power, .. }: &Chord<f64>) -> Nearest
     }
 }
 
-/// Both roots where the plain step is in doubt: once more, as above.
+/// Finds both roots where the plain step is in doubt, as [`nearest_again`] does.
 #[cold]
 #[inline(never)]
 fn both_again(sphere: &Sphere, ray: &Ray, line: &Line) -> Option<[f64; 2]> {
@@ -206,8 +203,7 @@ fn both_again(sphere: &Sphere, ray: &Ray, line: &Line) -> Option<[f64; 2]> {
             Verdict::Doubt => Both::Doubt,
         }
     } else {
-        let larger = chord.distance_squared.max(setting.radius_squared);
-        let fine_power = || Some(halves::power(setting.line, setting.o, larger));
+        let fine_power = || Some(setting.fine_power(&chord));
         plain::both(&chord, setting.radius_squared, CLEAR, fine_power)
     };
     if let Both::Roots { t, .. } = roots {
@@ -218,7 +214,7 @@ fn both_again(sphere: &Sphere, ray: &Ray, line: &Line) -> Option<[f64; 2]> {
     both_carefully(line, Format::F32)
 }
 
-/// The nearest hit.
+/// Finds the nearest hit: the plain step, and the way to the others.
 // Inlined always: so that what a caller does not use of the hit is not computed.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]

@@ -12,6 +12,7 @@ use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
 use super::{both_carefully, integers, nearest_carefully, surface};
 use crate::algebraic::Quadratic;
+use crate::arithmetic::pair::LEAST_PAIR;
 use crate::float::sqrt;
 use crate::{Hit, Ray, Sphere};
 
@@ -55,9 +56,6 @@ fn nearest_again(line: &Line, range: Range<f64>) -> Option<Found> {
     from_the_surface(*line, &range).unwrap_or_else(|| nearest_carefully(line, Format::F64, range))
 }
 
-/// 2⁻⁹⁰⁰.
-const LEAST_ROOT: f64 = f64::from_bits((1023 - 900) << 52);
-
 /// 2⁻⁵⁰⁰, the square of which is not safe.
 const LEAST_LENGTH: f64 = f64::from_bits((1023 - 500) << 52);
 
@@ -99,8 +97,7 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
     }
     let (root, relative_error) =
         surface::small_root(o, line.direction.into(), &chord, half_chord, power);
-    // Below these, a pair is none.
-    if root.hi.abs() < LEAST_ROOT {
+    if root.hi.abs() < LEAST_PAIR {
         return None;
     }
     let side = if is_outside { Side::Near } else { Side::Far };

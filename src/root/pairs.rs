@@ -42,7 +42,9 @@ use super::integers;
 use super::scaled::Scaled;
 use super::surface::{self, power_in_pairs};
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{Pair, U, V, compensated_dot, two_difference, two_product, two_sum};
+use crate::arithmetic::pair::{
+    LEAST_PAIR, Pair, U, V, compensated_dot, two_difference, two_product, two_sum,
+};
 use crate::arithmetic::scaling::scale;
 use crate::float::sqrt;
 
@@ -204,15 +206,13 @@ fn quadratic_at(line: &Line, number: Midpoint) -> Option<Ordering> {
     let even = scale((number.integer - 1) as f64, number.exponent);
     let one = scale(1.0, number.exponent);
     let exact = line.o().zip(line.direction.into(), |o, d| {
-        /// 2⁻⁹⁰⁰: far enough above the subnormal numbers for products to be pairs.
-        const LEAST: f64 = f64::from_bits((1023 - 900) << 52);
         let step = two_product(even, d);
         let last = one * d;
         let high = two_difference(step.hi, o.hi);
         let low = two_difference(step.lo, o.lo);
         let lower = two_sum(low.hi, last);
         let lowest = two_sum(lower.hi, high.lo);
-        let is_whole = d == 0.0 || last.abs() > LEAST;
+        let is_whole = d == 0.0 || last.abs() > LEAST_PAIR;
         let dropped = low.lo.abs() + lower.lo.abs() + lowest.lo.abs();
         (two_sum(high.hi, lowest.hi), if is_whole { dropped } else { f64::INFINITY })
     });
