@@ -54,7 +54,12 @@ impl Axis {
         let low = x - high;
         let [first, second, third] = self.steps;
         let small = second * high + third * high + (first + second + third) * low;
-        let u = (self.start + first * high) + small;
+        let leading = self.start + first * high;
+        if leading.is_infinite() && x.is_finite() {
+            // The other products may have overflowed the other way.
+            return f64::MAX.copysign(leading);
+        }
+        let u = leading + small;
         // Infinity times a zero coordinate of the basis would be a NaN.
         u.clamp(f64::MIN, f64::MAX)
     }

@@ -217,3 +217,17 @@ fn an_image_without_pixels_counts_as_one_pixel() -> Result<(), CameraError> {
     }
     Ok(())
 }
+
+#[test]
+fn pixels_far_outside_the_widest_view_have_rays() {
+    // The products with the parts of a pixel overflow, and to either side.
+    let view = ViewRect { left: 0.0, right: f64::MAX, bottom: 0.0, top: f64::MAX };
+    let camera = Camera::orthographic(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, view).expect("a camera");
+    for width in 1..=2000 {
+        for x in [1e20, 1e29, f64::MAX].into_iter().flat_map(|x| [x, -x]) {
+            let Ray { origin, .. } = camera.pixel_ray(DVec2::new(x, 0.0), width, 1);
+            assert!(!origin.is_nan(), "{x} of {width}");
+            assert_eq!(origin.x, f64::MAX.copysign(x), "{x} of {width}");
+        }
+    }
+}
