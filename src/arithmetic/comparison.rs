@@ -42,3 +42,9 @@ pub(crate) fn exceeds(x: f64, part: f64, y: f64) -> bool {
 pub(crate) fn product_exceeds([x, y]: [f64; 2], part: f64, z: f64) -> bool {
     bits(x).wrapping_add(bits(y) - bits(1.0)) > bits(z).wrapping_add(step(part))
 }
+
+/// Whether a number is zero.
+#[inline(always)]
+pub(crate) fn is_zero(x: f64) -> bool {
+    x.to_bits() << 1 == 0
+}

@@ -2,6 +2,8 @@
 
 pub(crate) mod comparison;
 pub(crate) mod exact;
+pub(crate) mod float;
+pub(crate) mod integer;
 pub(crate) mod number;
 pub(crate) mod pair;
 pub(crate) mod product;
