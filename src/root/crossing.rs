@@ -118,10 +118,10 @@ pub(crate) trait Crossings {
     type Root;
 
     /// The root, correctly rounded, if this step can tell it.
-    fn root(&self, side: Side) -> Option<(f64, Self::Root)>;
+    fn root(&mut self, side: Side) -> Option<(f64, Self::Root)>;
 
-    /// The hit at that root, if this step can tell it within the tolerance of the format.
-    fn hit(&self, side: Side, t: f64, root: Self::Root) -> Option<Found>;
+    /// The hit at that root, as [`points`](super::points) rounds it, if this step can tell it.
+    fn hit(&mut self, side: Side, t: f64, root: Self::Root) -> Option<Found>;
 }
 
 /// What is asked of the crossings.
@@ -129,6 +129,8 @@ pub(crate) trait Crossings {
 pub(crate) enum Question {
     /// The first crossing with a finite t > 0 in the range.
     Nearest(Range<f64>),
+    /// One root.
+    Root(Side),
     /// Both roots.
     Both,
 }
@@ -137,8 +139,8 @@ pub(crate) enum Question {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Answer {
     Nearest(Found),
-    /// Ascending.
-    Both([f64; 2]),
+    /// Ascending; zero where only the other root was asked.
+    Roots([f64; 2]),
 }
 
 impl Answer {
@@ -148,16 +150,19 @@ impl Answer {
     }
 
     #[inline(always)]
-    pub(crate) fn both(self) -> Option<[f64; 2]> {
-        if let Self::Both(roots) = self { Some(roots) } else { None }
+    pub(crate) fn roots(self) -> Option<[f64; 2]> {
+        if let Self::Roots(roots) = self { Some(roots) } else { None }
     }
 }
 
 impl Question {
     #[inline(always)]
-    pub(crate) fn ask(&self, crossings: &impl Crossings) -> Verdict<Answer> {
+    pub(crate) fn ask(&self, crossings: &mut impl Crossings) -> Verdict<Answer> {
         let mut roots = [0.0; 2];
         for (side, t) in [Side::Near, Side::Far].into_iter().zip(&mut roots) {
+            if matches!(self, Self::Root(wanted) if *wanted != side) {
+                continue;
+            }
             let Some((rounded, root)) = crossings.root(side) else { return Verdict::Doubt };
             *t = rounded;
             let Self::Nearest(range) = self else { continue };
@@ -168,7 +173,7 @@ impl Question {
         }
         match self {
             Self::Nearest(_) => Verdict::Miss,
-            Self::Both => Verdict::Hit(Answer::Both(roots)),
+            Self::Root(_) | Self::Both => Verdict::Hit(Answer::Roots(roots)),
         }
     }
 }

@@ -4,11 +4,13 @@
 //! interval that holds the exact value round to the same number, that is the exact value correctly rounded. Where they round
 //! to neighbors, the exact value has to be compared with the one number midway between them.
 
+use core::array;
 use core::cmp::Ordering;
 
 use crate::arithmetic::pair::{Pair, U};
 use crate::arithmetic::rounding::RoundDown;
 use crate::arithmetic::scaling::integer_and_exponent;
+use crate::float::HAS_F64;
 
 #[cfg(test)]
 mod tests;
@@ -21,6 +23,7 @@ pub(crate) enum Format {
 }
 
 /// How far off a point may be besides the rounding of its coordinates: by the smaller of two lengths.
+#[cfg(test)]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PointTolerance {
     /// A part of the distance travelled, t times the direction's length.
@@ -30,7 +33,20 @@ pub(crate) struct PointTolerance {
 }
 
 impl Format {
-    /// What every step keeps to.
+    /// Whether what the first steps leave in doubt goes to the last step at once. It answers as those between do, bit for bit: without
+    /// them there is less code, and rare cases take longer.
+    ///
+    /// So it is where `f64` is software, because there the steps between are slower than integers, and for `f32` in WebAssembly,
+    /// because code is downloaded there.
+    pub(crate) const fn has_few_steps(self) -> bool {
+        match self {
+            Self::F32 => !HAS_F64 || cfg!(target_family = "wasm"),
+            Self::F64 => !HAS_F64,
+        }
+    }
+
+    /// What the first steps keep to.
+    #[cfg(test)]
     pub(crate) const fn point_tolerance(self) -> PointTolerance {
         match self {
             // 2^-30 and 2^-24.
@@ -59,30 +75,59 @@ impl Format {
             return None;
         }
         let error = t.hi.abs() * relative_error;
+        let [[low], [high]] = self.ends([t.hi], [t.lo], [error]);
+        // In bits, because an interval around zero has two.
+        if low.to_bits() == high.to_bits() {
+            return Some(low);
+        }
+        let ends = Ends { low, high };
         match self {
             Self::F32 => {
-                // Half an ulp of an f64 for each end, half for the low part, and half to spare.
-                let error = error + t.hi.abs() * (4.0 * U);
-                #[expect(clippy::cast_possible_truncation, reason = "rounding is what this does")]
-                let [low, high] = [(t.hi - error) as f32, (t.hi + error) as f32];
-                // In bits, because an interval around zero has two.
-                if low.to_bits() == high.to_bits() {
-                    return Some(low.into());
-                }
+                #[expect(clippy::cast_possible_truncation, reason = "they are rounded already")]
+                let [low, high] = [low as f32, high as f32];
                 let are_neighbors = high.next_below() == low;
-                let ends = Ends { low: low.into(), high: high.into() };
-                are_neighbors.then(|| ends.choose(Self::F32, low.to_bits() % 2 == 0, compare))
+                are_neighbors.then(|| ends.choose(self, low.to_bits() % 2 == 0, compare))
             }
             Self::F64 => {
-                // Each end is rounded once to a number of the format; before that, by far less than the error.
-                let [low, high] = [t.hi + (t.lo - error), t.hi + (t.lo + error)];
-                if low.to_bits() == high.to_bits() {
-                    return Some(low);
-                }
                 let are_neighbors = high.next_below() == low;
-                let ends = Ends { low, high };
-                are_neighbors.then(|| ends.choose(Self::F64, low.to_bits() % 2 == 0, compare))
+                are_neighbors.then(|| ends.choose(self, low.to_bits() % 2 == 0, compare))
             }
+        }
+    }
+
+    /// Rounds to the nearest number.
+    #[inline]
+    pub(crate) fn nearest(self, x: f64) -> f64 {
+        #[expect(clippy::cast_possible_truncation, reason = "rounding is what this does")]
+        match self {
+            Self::F32 => f64::from(x as f32),
+            Self::F64 => x,
+        }
+    }
+
+    /// Of each sum `hi + lo`, the ends of the interval around it that is known within `error`, rounded.
+    #[inline(always)]
+    pub(crate) fn ends<const N: usize>(
+        self,
+        hi: [f64; N],
+        lo: [f64; N],
+        error: [f64; N],
+    ) -> [[f64; N]; 2] {
+        match self {
+            Self::F32 => {
+                let sum: [f64; N] = array::from_fn(|i| hi[i] + lo[i]);
+                // Half an ulp of an f64 for the sum, half for each end, and as much to spare.
+                let error: [f64; N] = array::from_fn(|i| error[i] + sum[i].abs() * (4.0 * U));
+                [
+                    array::from_fn(|i| self.nearest(sum[i] - error[i])),
+                    array::from_fn(|i| self.nearest(sum[i] + error[i])),
+                ]
+            }
+            // Each end is rounded once to a number of the format; before that, by far less than the error.
+            Self::F64 => [
+                array::from_fn(|i| hi[i] + (lo[i] - error[i])),
+                array::from_fn(|i| hi[i] + (lo[i] + error[i])),
+            ],
         }
     }
 
@@ -111,7 +156,7 @@ impl Format {
     }
 
     /// The least exponent of an ulp.
-    const fn least_exponent(self) -> i32 {
+    pub(crate) const fn least_exponent(self) -> i32 {
         match self {
             Self::F32 => -149,
             Self::F64 => -1074,
@@ -119,7 +164,7 @@ impl Format {
     }
 
     /// The bits of a mantissa.
-    const fn digits(self) -> i32 {
+    pub(crate) const fn digits(self) -> i32 {
         match self {
             Self::F32 => 24,
             Self::F64 => 53,

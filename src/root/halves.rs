@@ -28,7 +28,10 @@
 use glam::DVec3;
 
 use super::chord::Chord;
-use super::crossing::Line;
+use super::crossing::{Found, Line};
+use super::format::Format;
+use super::points::{self, Crossing, Near};
+use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{Pair, U, fast_two_sum, two_sum};
 
 #[cfg(test)]
@@ -41,15 +44,12 @@ pub(super) const CLEAR: f64 = 1.0 / 65536.0;
 const CLEAR_OF_RESIDUAL: f64 = 1.0 / 1_048_576.0;
 
 /// Of t, in r √m / s: 2⁻⁷².
-#[cfg(test)]
 const RESIDUAL_ERROR: f64 = U / 524_288.0;
 
 /// Of the slope w·d, in r |d|.
-#[cfg(test)]
 const SLOPE_ERROR: f64 = 4.0 * U;
 
 /// Of w, in √m: 2⁻⁷⁴.
-#[cfg(test)]
 const OFFSET_ERROR: f64 = U / 2_097_152.0;
 
 /// How far off a corrected root may be, as a part of itself: 2⁻⁶², and half of that for all else.
@@ -125,6 +125,7 @@ pub(super) struct Corrected {
     step: DVec3,
     step_low: DVec3,
     w: Halves,
+    tau: f64,
     correction: DVec3,
     origin: DVec3,
 }
@@ -149,6 +150,31 @@ impl Corrected {
     #[inline(always)]
     pub(super) fn offset(&self) -> DVec3 {
         self.w.high + (self.w.low + self.correction)
+    }
+
+    /// The hit, if it is certain how that is rounded: with |d|, √m and half the chord s.
+    ///
+    /// By the error of the case, which is far less than [`ROOT_ERROR`] where the chord is long.
+    #[inline(always)]
+    pub(super) fn hit(&self, line: Line, length: f64, size: f64, half_chord: f64) -> Option<Found> {
+        let per_half_chord = half_chord.recip();
+        let tau = self.tau.abs();
+        let bend = length * length * tau * per_half_chord;
+        let of_slope = SLOPE_ERROR * (line.radius * length * per_half_chord) + bend * bend;
+        let of_root = RESIDUAL_ERROR * (line.radius * size * per_half_chord) + tau * of_slope;
+        // Twice as much, for what is left out.
+        let error = 2.0 * (length * of_root + OFFSET_ERROR * size);
+        let low = Triple::from(self.step_low + self.correction);
+        let step = Triple::from(self.step).zip(low, |hi, lo| Pair { hi, lo });
+        let point = Triple::from(line.origin).zip(step, |p, step| {
+            let sum = two_sum(p, step.hi);
+            Pair { hi: sum.hi, lo: sum.lo + step.lo }
+        });
+        let low = Triple::from(self.w.low + self.correction);
+        let offset = Triple::from(self.w.high).zip(low, |hi, lo| Pair { hi, lo });
+        let [point, offset] = [point, offset].map(|value| Near::within(value, error));
+        let crossing = Crossing::new(point, offset, line.radius);
+        points::surely(line, Format::F64, self.t.hi, crossing)
     }
 }
 
@@ -212,6 +238,7 @@ impl Correction {
             step,
             step_low,
             w: Halves { high: w_high, low: w_low },
+            tau,
             correction: self.direction * tau,
             origin: self.origin,
         }

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use super::bounded::Bounded;
 use super::chord::{Chord, Derivation};
@@ -10,11 +10,13 @@ use super::crossing::{Found, Line, Setting, Side, Verdict};
 use super::format::Format;
 use super::halves;
 use super::plain::{self, Both, Nearest};
+use super::points::{self, Crossing, Near};
 use super::precision::Precision;
-use super::{both_carefully, integers, nearest_carefully, surface};
+use super::{both_carefully, integers, nearest_carefully, root_carefully, surface};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::comparison::{exceeds, is_not_positive};
-use crate::arithmetic::pair::U;
+use crate::arithmetic::number::Triple;
+use crate::arithmetic::pair::{Pair, U};
 use crate::arithmetic::rounding::rounds_safely;
 use crate::float::{HAS_F64, sqrt};
 use crate::{Hit, Ray, Sphere};
@@ -70,9 +72,22 @@ impl Setting {
     }
 
     /// The power where the plain one is too small to be certain.
-    #[inline(always)]
+    #[cfg_attr(not(any(target_os = "none", target_family = "wasm")), inline(always))]
+    #[cfg_attr(any(target_os = "none", target_family = "wasm"), inline(never))]
     fn fine_power(&self, chord: &Chord<f64>) -> f64 {
-        halves::power(self.line, self.o, chord.distance_squared.max(self.radius_squared))
+        let (square, other) = (chord.distance_squared, self.radius_squared);
+        halves::power(self.line, self.o, if square > other { square } else { other })
+    }
+
+    /// The nearest root ahead by the plain step; asked a second time, with a finer power.
+    #[inline(always)]
+    fn nearest_ahead(&self, chord: &Chord<f64>, is_second: bool) -> Nearest {
+        if HAS_F64 && !is_second {
+            return plain::nearest_ahead(chord, self.radius_squared, CLEAR, || None);
+        }
+        // Where `f64` is software, the same copy of the code for both times.
+        let fine_power = || if is_second { Some(self.fine_power(chord)) } else { None };
+        plain::nearest_ahead(chord, self.radius_squared, CLEAR, fine_power)
     }
 }
 
@@ -82,30 +97,50 @@ impl Setting {
 #[expect(clippy::cast_possible_truncation, reason = "it is rounded already")]
 fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
     let side = if half_chord > 0.0 { Side::Near } else { Side::Far };
+    if Format::F32.has_few_steps() {
+        return root_carefully(line, Format::F32, side).map(|t| t as f32);
+    }
     let compare = |midpoint| integers::compare_root(line, side, midpoint);
     Format::F32.round(t.into(), plain::ROOT_ERROR / CLEAR, compare).map(|t| t as f32)
 }
 
-/// Finds the nearest root of a line that starts exactly on the surface: its roots are 0 and 2 h / a.
+/// Finds the nearest hit of a line that starts exactly on the surface: its roots are 0 and 2 h / a.
 #[cold]
 #[inline(never)]
-fn from_the_surface(line: &Line, chord: &Chord<f64>) -> Nearest {
-    let Chord { a, h, distance_squared, power, .. } = *chord;
-    // With h² > clear a m, h errs by less than the plain step's roots.
+#[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
+fn from_the_surface(line: &Line, chord: Chord<f64>, range: Range<f32>) -> Verdict<Found> {
+    /// Of the point, in t |d|: with h² > clear a m, h errs by 2¹⁰ u of itself, and t by 1,030 u; o, products and sums bring 8 u r, and
+    /// t |d| > 2⁻⁷ r.
+    const ERROR: f64 = 4096.0 * U;
+    let Chord { a, h, distance_squared, power, .. } = chord;
     if line.radius < 0.0
         || power.abs() > plain::SURE_SIGN * distance_squared
         || h * h <= CLEAR * (a * distance_squared)
     {
-        return Nearest::Doubt;
+        return Verdict::Doubt;
     }
     let (power, error) = surface::closest_power(line.o(), line.radius);
     if power.hi != 0.0 || error != 0.0 {
-        Nearest::Doubt
-    } else if h < 0.0 {
-        Nearest::Miss
-    } else {
-        Nearest::Root { t: 2.0 * h / a, half_chord: -h }
+        return Verdict::Doubt;
     }
+    if h < 0.0 {
+        return Verdict::Miss;
+    }
+    let t = 2.0 * h / a;
+    let rounded = t as f32;
+    if !rounds_safely::<MARGIN>(t) || rounded < f32::MIN_POSITIVE {
+        return Verdict::Doubt;
+    }
+    if !range.contains(&rounded) {
+        return Verdict::Miss;
+    }
+    let error = ERROR * (t * sqrt(a));
+    let near = |value: DVec3| Near::within(Triple::from(value).map(Pair::from), error);
+    let step = line.direction * t;
+    let (point, offset) = (near(line.origin + step), near(step - (line.center - line.origin)));
+    let crossing = Crossing::new(point, offset, line.radius);
+    points::surely(*line, Format::F32, rounded.into(), crossing)
+        .map_or(Verdict::Doubt, Verdict::Hit)
 }
 
 /// Finds the nearest hit where the plain step is in doubt: with a finer power close to the surface, and with the bound of the case
@@ -119,17 +154,24 @@ fn nearest_again(
     line: &Line,
     Range { start, end }: Range<f32>,
 ) -> Option<Found> {
-    let setting = Setting::new(sphere, ray);
+    // Where `f64` is hardware, it takes less time to convert anew than to load.
+    let setting = if HAS_F64 { Setting::new(sphere, ray) } else { Setting::of(*line) };
     let chord = setting.chord::<Quadratic>();
     let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
-    let nearest = if is_far { from_afar(&setting, &chord) } else { again(&setting, line, &chord) };
+    let nearest =
+        if is_far { from_afar(&setting, &chord) } else { setting.nearest_ahead(&chord, true) };
     let rounded = match nearest {
         Nearest::Miss => return None,
         Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) => Some((t, t as f32)),
         Nearest::Root { t, half_chord } => {
             round_carefully(line, t, half_chord).map(|rounded| (t, rounded))
         }
-        Nearest::Doubt => None,
+        Nearest::Doubt if is_far || Format::F32.has_few_steps() => None,
+        Nearest::Doubt => match from_the_surface(line, chord, start..end) {
+            Verdict::Miss => return None,
+            Verdict::Hit(found) => return Some(found),
+            Verdict::Doubt => None,
+        },
     };
     // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
     let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
@@ -139,16 +181,6 @@ fn nearest_again(
     (rounded < end).then(|| {
         if is_far { setting.found_from_afar(&chord, rounded) } else { setting.found(t, rounded) }
     })
-}
-
-/// Finds the nearest root ahead with a finer power.
-#[inline(always)]
-fn again(setting: &Setting, line: &Line, chord: &Chord<f64>) -> Nearest {
-    let fine_power = || Some(setting.fine_power(chord));
-    match plain::nearest_ahead(chord, setting.radius_squared, CLEAR, fine_power) {
-        Nearest::Doubt => from_the_surface(line, chord),
-        nearest => nearest,
-    }
 }
 
 /// Finds half the chord of a line from farther than [`NEAR`] by the closest approach.
@@ -180,7 +212,7 @@ fn half_chord_from_afar(setting: &Setting) -> Verdict<f64> {
 #[inline(always)]
 fn from_afar(setting: &Setting, &Chord { h, power, .. }: &Chord<f64>) -> Nearest {
     // Outside for sure: both roots lie on the side of the closest approach, as in the plain step.
-    if h <= 0.0 {
+    if is_not_positive(h) {
         return Nearest::Miss;
     }
     match half_chord_from_afar(setting) {
@@ -221,29 +253,35 @@ fn both_again(sphere: &Sphere, ray: &Ray, line: &Line) -> Option<[f64; 2]> {
 fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
     let setting = Setting::new(sphere, ray);
     let chord = setting.chord::<D>();
-    match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, || None) {
+    match setting.nearest_ahead(&chord, false) {
         Nearest::Miss => return None,
         Nearest::Root { t, .. } => {
             let rounded = t as f32;
             // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
             if rounds_safely::<MARGIN>(t) && rounded >= range.start && rounded >= f32::MIN_POSITIVE
             {
-                if rounded >= range.end || range.end.is_nan() {
+                // Not where that is NaN.
+                let is_in_range = rounded < range.end;
+                if !is_in_range {
                     return None;
                 }
-                // The two apart, so that the compiler need not keep what one of them does without.
-                return if exceeds(chord.distance_squared, NEAR, setting.radius_squared) {
-                    let found = setting.found_from_afar(&chord, rounded);
-                    Some(hit(setting.line, found))
+                let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
+                if is_far && HAS_F64 {
+                    // Apart, so that the compiler need not keep what only one of the two needs.
+                    return Some(hit(sphere, ray, setting.found_from_afar(&chord, rounded)));
+                }
+                let found = if is_far {
+                    setting.found_from_afar(&chord, rounded)
                 } else {
-                    Some(hit(setting.line, setting.found(t, rounded)))
+                    setting.found(t, rounded)
                 };
+                return Some(hit(sphere, ray, found));
             }
         }
         Nearest::Doubt => {}
     }
     let found = nearest_again(sphere, ray, &Line::new(sphere, ray), range)?;
-    Some(hit(setting.line, found))
+    Some(hit(sphere, ray, found))
 }
 
 /// The same by a call: where `f64` is software, that costs next to nothing, and copies of the plain step much.
@@ -303,9 +341,9 @@ fn surely_rounded([near, far]: [f64; 2]) -> Option<[f32; 2]> {
 /// The hit, rounded.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded already")]
-fn hit(line: Line, found: Found) -> Hit {
+fn hit(sphere: &Sphere, ray: &Ray, found: Found) -> Hit {
     let (t, point) = (found.t as f32, found.point.as_vec3());
-    Hit { t, point, normal: found.normal.as_vec3(), error: point_error(t, line) }
+    Hit { t, point, normal: found.normal.as_vec3(), error: point_error(t, sphere, ray) }
 }
 
 /// How far off the point may be besides the rounding of its coordinates, and more: see [`Hit::clearance`].
@@ -315,16 +353,15 @@ fn hit(line: Line, found: Found) -> Hit {
 /// rounded normal is inward in truth by no more than that is off, e < √3 2⁻²⁵, and passes the surface from e² r / 2 above it; here
 /// are 2⁻⁴⁸ r.
 #[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "there is room for rounding")]
-fn point_error(t: f32, line: Line) -> f32 {
+fn point_error(t: f32, sphere: &Sphere, ray: &Ray) -> f32 {
     const OF_DISTANCE: f32 = f32::EPSILON / 64.0;
     const OF_RADIUS: f32 = f32::EPSILON / 2.0;
     const OF_CURVATURE: f32 = f32::EPSILON * f32::EPSILON / 4.0;
     // Not `f32::max`, which takes care of NaN: here there is none.
     let larger = |a: f32, b: f32| if a > b { a } else { b };
     let smaller = |a: f32, b: f32| if a < b { a } else { b };
-    let Vec3 { x, y, z } = line.direction.as_vec3().abs();
+    let Vec3 { x, y, z } = ray.direction.abs();
     let travelled = t * larger(larger(x, y), z);
-    let radius = line.radius as f32;
+    let radius = sphere.radius;
     smaller(travelled * OF_DISTANCE, radius * OF_RADIUS) + radius * OF_CURVATURE
 }

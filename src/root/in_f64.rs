@@ -53,7 +53,12 @@ impl Setting {
 #[cold]
 #[inline(never)]
 fn nearest_again(line: &Line, range: Range<f64>) -> Option<Found> {
-    from_the_surface(*line, &range).unwrap_or_else(|| nearest_carefully(line, Format::F64, range))
+    if !Format::F64.has_few_steps() {
+        if let Some(nearest) = from_the_surface(*line, &range) {
+            return nearest;
+        }
+    }
+    nearest_carefully(line, Format::F64, range)
 }
 
 /// 2⁻⁵⁰⁰, the square of which is not safe.
@@ -91,25 +96,26 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
         let t = (chord.h + half_chord) / chord.a;
         let size = radius_squared * larger;
         let corrected = setting.correction(&chord).correct_surely(t, half_chord, size)?;
-        let t = corrected.t.hi;
-        let found = Found { t, point: corrected.point(), normal: corrected.offset() / line.radius };
-        return Some(range.contains(&t).then_some(found));
+        if !range.contains(&corrected.t.hi) {
+            return Some(None);
+        }
+        return corrected.hit(line, sqrt(chord.a), sqrt(larger), half_chord).map(Some);
     }
-    let (root, relative_error) =
-        surface::small_root(o, line.direction.into(), &chord, half_chord, power);
-    if root.hi.abs() < LEAST_PAIR {
+    let root = surface::small_root(o, line.direction.into(), &chord, half_chord, power);
+    if root.0.hi.abs() < LEAST_PAIR {
         return None;
     }
     let side = if is_outside { Side::Near } else { Side::Far };
-    let t = Format::F64.round(root, relative_error, |midpoint| {
-        integers::compare_root(&{ line }, side, midpoint)
-    })?;
+    let t = Format::F64
+        .round(root.0, root.1, |midpoint| integers::compare_root(&{ line }, side, midpoint))?;
     if t < range.start && is_outside {
         // The other root may be in the range.
         return None;
     }
-    let is_ahead = t > 0.0 && range.contains(&t);
-    Some(is_ahead.then(|| surface::hit(line, o, root, t)))
+    if !(t > 0.0 && range.contains(&t)) {
+        return Some(None);
+    }
+    surface::hit(line, o, root, t).map(Some)
 }
 
 impl Precision for DVec3 {

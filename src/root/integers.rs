@@ -5,21 +5,19 @@
 //! any ([`Sums`]).
 
 mod narrow;
-mod points;
 mod sums;
 
 use core::cmp::Ordering;
 
-use glam::DVec3;
 use narrow::Narrow;
-use points::Crossing;
 use sums::Sums;
 
 use super::crossing::{Crossings, Found, Line, Side, Verdict};
 use super::format::{Format, Midpoint};
 use super::pairs;
+use super::points::{self, normalized};
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{Pair, U, V};
+use crate::arithmetic::pair::{U, V};
 use crate::arithmetic::scaling::{exponent, scale};
 use crate::arithmetic::wide::Wide;
 
@@ -27,7 +25,7 @@ use crate::arithmetic::wide::Wide;
 mod tests;
 
 /// Of a root, in itself: of a quotient of numbers, or of their sums without cancellation, each known to 2⁻⁹⁶.
-const ROOT_ERROR: f64 = 4096.0 * V;
+pub(super) const ROOT_ERROR: f64 = 4096.0 * V;
 
 /// Where a pair loses nothing.
 const MIDDLE: i32 = 900;
@@ -142,13 +140,6 @@ pub(super) fn compare_root(line: &Line, side: Side, number: Midpoint) -> Orderin
     Exact::new(line).compare_root(line, side, number)
 }
 
-/// A root, to 96 bits.
-pub(super) struct Estimate {
-    t: Pair,
-    /// That of the power of two which takes `t` to lengths of the direction near 1, in the caller's units.
-    exponent: i32,
-}
-
 /// The chord, and what it belongs to.
 pub(super) struct InIntegers<'a> {
     line: &'a Line,
@@ -187,10 +178,36 @@ impl InIntegers<'_> {
     }
 }
 
-impl Crossings for InIntegers<'_> {
-    type Root = Estimate;
+impl InIntegers<'_> {
+    /// The hit from the foot of the closest approach, where neither the distance nor the length of the chord counts.
+    #[cold]
+    #[inline(never)]
+    fn hit_from_closest_approach(&self, side: Side, t: f64, root: Wide) -> Option<Found> {
+        let Line { direction, radius, .. } = *self.line;
+        let (radius, length_exponent) = normalized(radius);
+        let direction_exponent = exponent(direction.abs().max_element());
+        // In units of the radius and of the direction's length, which bound half the chord and the moment.
+        let unit = -(length_exponent + direction_exponent);
+        let [x, y, z] = self.exact.moment().map(|coordinate| coordinate.scaled(unit));
+        let half_chord = self.half_chord.scaled(unit);
+        let d = Triple::from(direction).map(|d| scale(d, -direction_exponent));
+        let offset = points::from_closest_approach(
+            Triple { x, y, z },
+            d,
+            if side == Side::Near { -half_chord } else { half_chord },
+            self.a.scaled(-2 * direction_exponent),
+        );
+        let root_exponent = root.exponent();
+        let root = (root.scaled(-root_exponent), root_exponent, ROOT_ERROR);
+        let crossing = points::Crossing::from_root(self.line, root, offset, radius);
+        points::surely(*self.line, self.format, t, crossing)
+    }
+}
 
-    fn root(&self, side: Side) -> Option<(f64, Estimate)> {
+impl Crossings for InIntegers<'_> {
+    type Root = Wide;
+
+    fn root(&mut self, side: Side) -> Option<(f64, Wide)> {
         let exact = self.estimate(side);
         let compare = |number| self.exact.compare_root(self.line, side, number);
         let t = if exact.is_zero() {
@@ -200,44 +217,14 @@ impl Crossings for InIntegers<'_> {
         } else {
             self.format.round_at_the_ends(exact.to_f64(), compare)
         };
-        let estimate = Estimate {
-            t: exact.scaled(-exact.exponent()),
-            exponent: exact.exponent() + direction_exponent(self.line),
-        };
-        Some((t, estimate))
+        Some((t, exact))
     }
 
-    fn hit(&self, side: Side, t: f64, root: Estimate) -> Option<Found> {
-        let &Line { direction, center, radius, .. } = self.line;
-        let direction_exponent = direction_exponent(self.line);
-        let d = Triple::from(direction).map(|d| scale(d, -direction_exponent));
-        if radius == 0.0 {
-            // There is no normal: back along the ray.
-            return Some(Found { t, point: center, normal: -DVec3::from(d).normalize() });
+    fn hit(&mut self, side: Side, t: f64, root: Wide) -> Option<Found> {
+        if self.line.radius == 0.0 {
+            return points::at_center(self.line, self.format, t, self.a);
         }
-        let unscaled = root.exponent - direction_exponent;
-        if unscaled.abs() < MIDDLE {
-            let t_pair = Pair { hi: scale(root.t.hi, unscaled), lo: scale(root.t.lo, unscaled) };
-            if let Some(found) = pairs::hit_at(self.line, self.format, t, t_pair) {
-                return Some(found);
-            }
-        }
-        // In units of the radius and of the direction's length, which bound half the chord and the moment.
-        let length_exponent = exponent(radius);
-        let unit = -(length_exponent + direction_exponent);
-        let [x, y, z] = self.exact.moment().map(|coordinate| coordinate.scaled(unit));
-        let crossing = Crossing {
-            d,
-            radius: scale(radius, -length_exponent),
-            length_exponent,
-            a: self.a.scaled(-2 * direction_exponent),
-            moment: Triple { x, y, z },
-            half_chord: self.half_chord.scaled(unit),
-        };
-        Some(crossing.hit(self.line, side, t, &root))
+        pairs::hit_at(self.line, self.format, t, root)
+            .or_else(|| self.hit_from_closest_approach(side, t, root))
     }
-}
-
-fn direction_exponent(line: &Line) -> i32 {
-    exponent(line.direction.abs().max_element())
 }

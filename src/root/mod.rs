@@ -12,6 +12,7 @@
 //! | [`surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface | 54, "on the surface" in `f64` |
 //! | [`pairs`] | offsets and powers in pairs of `f64`, the rest in `f64` | a bound of the case | the limb, and from afar in `f64` | 86, "at the limb from afar" in `f64` |
 //! | [`integers`] | integers of 64 bits, or any | exact | tangents, ties | 173 and 171, "exact tangent" |
+//! | [`surds`] | integers of many digits | exact | points next to a midpoint or to zero | 1,452, "tie of a tiny sphere" in `f64` |
 //!
 //! How many in a hundred each decides (`cargo test --release --lib how_often -- --nocapture` has every family; "again" counts
 //! [`surface`], and a root compared with the midpoint of two floats counts as integers in `f32`):
@@ -36,6 +37,10 @@
 //!
 //! A step that is not certain hands over to the next, and so does one that is certain of the root but not of the point. No step
 //! assumes what another has found, so each can be tested by itself.
+//!
+//! From [`surface`] on, and where a line starts exactly on the surface, the points and normals are correctly rounded, too
+//! ([`points`]). So all these steps answer alike, bit for bit, and those between the first and the last can be left out where there is
+//! no room for their code ([`Format::has_few_steps`]).
 
 mod bounded;
 pub(crate) mod chord;
@@ -47,13 +52,15 @@ mod in_f64;
 mod integers;
 mod pairs;
 mod plain;
+mod points;
 pub(crate) mod precision;
 mod scaled;
+mod surds;
 mod surface;
 
 use core::ops::Range;
 
-use crossing::{Answer, Found, Line, Question, Verdict};
+use crossing::{Answer, Found, Line, Question, Side, Verdict};
 use format::Format;
 use integers::Exact;
 
@@ -63,35 +70,64 @@ mod tests;
 /// Finds the nearest hit, where the plain steps leave a doubt.
 #[inline(always)]
 fn nearest_carefully(line: &Line, format: Format, range: Range<f64>) -> Option<Found> {
-    carefully(line, format, &Question::Nearest(range))?.nearest()
+    ask_carefully(line, format, &Question::Nearest(range))?.nearest()
 }
 
 /// Finds both roots, ascending, where the plain steps leave a doubt.
 #[inline(always)]
 fn both_carefully(line: &Line, format: Format) -> Option<[f64; 2]> {
-    carefully(line, format, &Question::Both)?.both()
+    ask_carefully(line, format, &Question::Both)?.roots()
+}
+
+/// Finds one root, where the plain steps are certain only that there is one.
+#[inline(always)]
+fn root_carefully(line: &Line, format: Format, side: Side) -> Option<f64> {
+    let [near, far] = ask_carefully(line, format, &Question::Root(side))?.roots()?;
+    Some(if side == Side::Near { near } else { far })
+}
+
+/// Asks the steps that are compiled once, or of few steps the last.
+#[inline(always)]
+fn ask_carefully(line: &Line, format: Format, question: &Question) -> Option<Answer> {
+    if format.has_few_steps() {
+        in_any_integers(line, format, question)
+    } else {
+        carefully(line, format, question)
+    }
 }
 
 /// Takes the steps that are the same for both precisions, and compiled once.
 #[cold]
 #[inline(never)]
 fn carefully(line: &Line, format: Format, question: &Question) -> Option<Answer> {
-    match pairs::chord(line, format).and_then(|chord| question.ask(&chord)) {
+    match pairs::chord(line, format).and_then(|mut chord| question.ask(&mut chord)) {
         Verdict::Miss => None,
         Verdict::Hit(answer) => Some(answer),
         Verdict::Doubt => in_integers(line, format, question),
     }
 }
 
-/// Takes the last step.
+/// Takes the last step but one.
 #[cold]
 #[inline(never)]
 fn in_integers(line: &Line, format: Format, question: &Question) -> Option<Answer> {
     if !line.is_valid() {
         return None;
     }
-    match integers::chord(line, Exact::new(line), format).and_then(|chord| question.ask(&chord)) {
+    match integers::chord(line, Exact::new(line), format)
+        .and_then(|mut chord| question.ask(&mut chord))
+    {
+        Verdict::Miss => None,
         Verdict::Hit(answer) => Some(answer),
-        Verdict::Miss | Verdict::Doubt => None,
+        Verdict::Doubt => in_any_integers(line, format, question),
+    }
+}
+
+/// Takes the last step.
+#[inline(always)]
+fn in_any_integers(line: &Line, format: Format, question: &Question) -> Option<Answer> {
+    match format {
+        Format::F32 => surds::answer::<{ surds::F32_DIGITS }>(line, format, question),
+        Format::F64 => surds::answer::<{ surds::F64_DIGITS }>(line, format, question),
     }
 }

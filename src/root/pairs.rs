@@ -29,8 +29,8 @@
 //! ```
 //!
 //! At the root, |t d| ≤ 2 √m. After the first move, what w erred by there counts too, with R ≤ r + 8 u |o|: so w errs by 2 v r + 16 u v √m,
-//! and w·w - r² by 46 v r² + 32 u v r √m, which is half of that over s in t. The slope w·d errs by 4 u r |d|, of 8 u there are five in the
-//! operations of τ, and what is left out of τ is (a τ / s)² / 2 of it.
+//! and w·w - r² by 46 v r² + 32 u v r √m, which is half of that over s in t. The slope w·d errs by 4 u r |d|, of 12 u there are five in the
+//! operations of τ and three in w + τ d, and what is left out of τ is (a τ / s)² / 2 of it.
 
 use core::cmp::Ordering;
 
@@ -39,6 +39,7 @@ use super::chord::Chord;
 use super::crossing::{Crossings, Found, Line, Side, Verdict};
 use super::format::{Format, Midpoint};
 use super::integers;
+use super::points::{self, Crossing, Near};
 use super::scaled::Scaled;
 use super::surface::{self, power_in_pairs};
 use crate::arithmetic::number::Triple;
@@ -46,6 +47,7 @@ use crate::arithmetic::pair::{
     LEAST_PAIR, Pair, U, V, compensated_dot, two_difference, two_product, two_sum,
 };
 use crate::arithmetic::scaling::scale;
+use crate::arithmetic::wide::Wide;
 use crate::float::sqrt;
 
 #[cfg(test)]
@@ -69,7 +71,7 @@ const RESIDUAL_ERROR: f64 = 24.0 * V;
 const RESIDUAL_REACH_ERROR: f64 = 32.0 * U * V;
 /// Of the slope, in r |d|, and of the operations of the correction, in itself.
 const SLOPE_ERROR: f64 = 5.0 * U;
-const CORRECTION_ERROR: f64 = 8.0 * U;
+const CORRECTION_ERROR: f64 = 12.0 * U;
 /// Of the sum that the root is, in itself.
 const PAIR_ERROR: f64 = 2.0 * V;
 /// The largest a τ / s.
@@ -185,6 +187,13 @@ impl InPairs<'_> {
         Some(Corrected { t, error, w, correction })
     }
 
+    /// The error of where the line is at a root.
+    #[inline(always)]
+    fn offset_error(&self, root: &Corrected) -> f64 {
+        let of_offset = OFFSET_ERROR * self.scaled.radius + OFFSET_REACH_ERROR * self.size;
+        root.error * self.length + of_offset
+    }
+
     /// How the root on that side compares with a number midway between its neighbors.
     #[inline(always)]
     fn compare(&self, side: Side, number: Midpoint) -> Ordering {
@@ -229,7 +238,7 @@ impl Crossings for InPairs<'_> {
     type Root = Corrected;
 
     #[inline(always)]
-    fn root(&self, side: Side) -> Option<(f64, Corrected)> {
+    fn root(&mut self, side: Side) -> Option<(f64, Corrected)> {
         let corrected = self.corrected(side)?;
         let relative_error = corrected.error / corrected.t.hi.abs() + PAIR_ERROR;
         let exponent = self.scaled.exponent();
@@ -244,74 +253,86 @@ impl Crossings for InPairs<'_> {
     }
 
     #[inline(always)]
-    fn hit(&self, _: Side, t: f64, root: Corrected) -> Option<Found> {
-        let Scaled { radius, .. } = self.scaled;
-        let residual = OFFSET_ERROR * radius + OFFSET_REACH_ERROR * self.size;
-        let offset_error = root.error * self.length + residual;
-        let is_certain = offset_error <= 0.5 * root.allowed(&self.scaled, self.length, self.format);
-        is_certain.then(|| root.hit(self.line, &self.scaled, t))
+    fn hit(&mut self, _: Side, t: f64, root: Corrected) -> Option<Found> {
+        root.hit(self.line, self.format, &self.scaled, t, self.offset_error(&root))
     }
 }
 
 impl Corrected {
-    /// The error that is allowed for a point.
+    /// From the center to where the line is there.
     #[inline(always)]
-    fn allowed(&self, scaled: &Scaled, length: f64, format: Format) -> f64 {
-        let tolerance = format.point_tolerance();
-        let travelled = self.t.hi.abs() * length;
-        (tolerance.of_radius * scaled.radius).min(tolerance.of_distance * travelled)
+    fn offset(&self, Scaled { d, .. }: &Scaled) -> Triple<Pair> {
+        self.w.zip(*d, |w, d| Pair { hi: w.hi, lo: w.lo + d * self.correction })
     }
 
-    /// The hit: p + t d is c + w.
+    /// The hit: p + t d is c + w, and w is known within an error.
     #[inline(always)]
-    fn hit(&self, line: &Line, scaled: &Scaled, t: f64) -> Found {
-        let Self { w, correction, .. } = *self;
-        let Scaled { d, radius, length_exponent, .. } = *scaled;
-        let offset = w.zip(d, |w, d| without_dust(Pair { hi: w.hi, lo: w.lo + d * correction }));
-        let center = Triple::from(line.center);
-        let point = if scaled.is_scaled() {
-            center.zip(offset, |center, offset| {
-                let sum = two_sum(center, scale(offset.hi, length_exponent));
-                // Not where it overflows.
-                let low = sum.lo + scale(offset.lo, length_exponent);
-                if sum.hi.is_finite() { sum.hi + low } else { sum.hi }
-            })
-        } else {
-            center.zip(offset, |center, offset| {
-                let sum = two_sum(center, offset.hi);
-                sum.hi + (sum.lo + offset.lo)
-            })
+    fn hit(
+        &self,
+        line: &Line,
+        format: Format,
+        scaled: &Scaled,
+        t: f64,
+        error: f64,
+    ) -> Option<Found> {
+        /// Of the offset, which is less than twice the radius, and of the center: of their low parts a sum is rounded, and once more where
+        /// the error is added.
+        const SUM_ERROR: f64 = 4.0 * V;
+        let Scaled { radius, length_exponent: unit, .. } = *scaled;
+        let offset = self.offset(scaled);
+        let center = scaled.position(line.center);
+        let sum = center.zip(offset, |center, offset| {
+            let sum = two_sum(center, offset.hi);
+            Pair { hi: sum.hi, lo: sum.lo + offset.lo }
+        });
+        let size = center.x.abs() + center.y.abs() + center.z.abs() + 2.0 * radius;
+        let crossing = Crossing {
+            point: Near::within(sum, error + SUM_ERROR * size),
+            units: Triple { x: unit, y: unit, z: unit },
+            offset: Near::within(offset, error + SUM_ERROR * radius),
+            radius,
         };
-        let normal = offset.map(|offset| (offset.hi + offset.lo) / radius);
-        Found { t, point: point.into(), normal: normal.into() }
+        points::surely(*line, format, t, crossing)
+            .or_else(|| self.hit_from_the_origin(line, format, scaled, t, error))
+    }
+
+    /// The same where the point is p + t d, each coordinate by itself.
+    #[cold]
+    #[inline(never)]
+    fn hit_from_the_origin(
+        &self,
+        line: &Line,
+        format: Format,
+        scaled: &Scaled,
+        t: f64,
+        error: f64,
+    ) -> Option<Found> {
+        // A smaller root has lost digits in these units.
+        if self.t.hi.abs() < LEAST_PAIR {
+            return None;
+        }
+        let relative_error = self.error / self.t.hi.abs() + PAIR_ERROR;
+        let root = (self.t, scaled.exponent(), relative_error);
+        let offset = Near::within(self.offset(scaled), error + 4.0 * V * scaled.radius);
+        let crossing = Crossing::from_root(line, root, offset, scaled.radius);
+        points::surely(*line, format, t, crossing)
     }
 }
 
 /// The hit at a root that is known to a part of itself of 2⁻⁹⁴, if its point is certain; `t` is that root rounded.
 ///
 /// The products with its low part are rounded, too, which is v |o|.
-pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Pair) -> Option<Found> {
+pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Wide) -> Option<Found> {
     /// 2⁻⁹⁰ of the way, and of |o|.
     const ERROR: f64 = 65536.0 * V;
     let scaled = Scaled::new(line)?;
-    if scaled.is_scaled() {
-        return None;
-    }
-    let Scaled { o, d, radius, .. } = scaled;
+    let Scaled { o, d, .. } = scaled;
     let o = o.map(|o| o.hi);
     let length = sqrt(d.dot(d));
+    let root = root.scaled(-scaled.exponent());
     let w = offset(&scaled, root.hi);
-    let root = Corrected { t: root, error: 0.0, w, correction: root.lo };
-    let reach = sqrt(o.dot(o)) + radius + root.t.hi.abs() * length;
-    (ERROR * reach <= 0.5 * root.allowed(&scaled, length, format))
-        .then(|| root.hit(line, &scaled, t))
-}
-
-/// A coordinate of a vector of about unit length, zero where it is so small that the low part of a product underflowed on the way:
-/// what is left of such a part depends on whether the machine has a fused multiply-add.
-#[inline(always)]
-pub(super) fn without_dust(coordinate: Pair) -> Pair {
-    const DUST: f64 = f64::from_bits((1023 - 800) << 52); // 2^-800
-    // A zero of the same sign.
-    if coordinate.hi.abs() < DUST { Pair::from(coordinate.hi * 0.0) } else { coordinate }
+    let reach = sqrt(o.dot(o)) + scaled.radius + root.hi.abs() * length;
+    let error = integers::ROOT_ERROR * root.hi.abs();
+    let root = Corrected { t: root, error, w, correction: root.lo };
+    root.hit(line, format, &scaled, t, ERROR * reach)
 }

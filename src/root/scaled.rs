@@ -1,5 +1,7 @@
 //! Lines of any size, brought near 1.
 
+use glam::DVec3;
+
 use super::crossing::Line;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::Pair;
@@ -45,6 +47,16 @@ impl Scaled {
             length_exponent,
             direction_exponent,
         })
+    }
+
+    /// A position in these units; what is far below the longest of them may be rounded.
+    #[inline(always)]
+    pub(super) fn position(&self, position: DVec3) -> Triple<f64> {
+        let position = Triple::from(position);
+        if !self.is_scaled() {
+            return position;
+        }
+        position.map(|coordinate| scale(coordinate, -self.length_exponent))
     }
 
     /// That of the power of two which takes a root to the caller's units.

@@ -10,6 +10,8 @@ use glam::DVec3;
 
 use super::chord::Chord;
 use super::crossing::{Found, Line};
+use super::format::Format;
+use super::points::{self, Crossing, Near};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
     Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum,
@@ -176,19 +178,31 @@ pub(super) fn small_root(
     (fast_two_sum(t, correction), power_error / power.hi.abs() + ROOT_ERROR)
 }
 
-/// The hit at the small root.
+/// The hit at the small root, if that and its relative error make certain how it is rounded.
 ///
-/// The point is off by what t and the products of its low part are, 2⁻⁷⁰ of the distance travelled, and that is at most a
-/// seventeenth of the radius.
+/// A product of the root and a coordinate of the direction errs by 4 v besides; of the low parts of a sum two additions are rounded, and
+/// that of the error. No coordinate of o is above 1.1 r, and the way is a seventeenth of r.
 #[inline(always)]
-pub(super) fn hit(line: Line, o: Triple<Pair>, root: Pair, t: f64) -> Found {
+pub(super) fn hit(
+    line: Line,
+    o: Triple<Pair>,
+    (root, relative_error): (Pair, f64),
+    t: f64,
+) -> Option<Found> {
+    const PRODUCT_ERROR: f64 = 6.0 * V;
+    const SUM_ERROR: f64 = 4.0 * V;
     let d = Triple::from(line.direction);
     let step = d.map(|d| root.times(d));
     let sum = |start: Pair, step: Pair| {
         let sum = two_sum(start.hi, step.hi);
-        sum.hi + (sum.lo + (start.lo + step.lo))
+        Pair { hi: sum.hi, lo: sum.lo + (start.lo + step.lo) }
     };
+    let size = |v: DVec3| v.x.abs() + v.y.abs() + v.z.abs();
+    let of_root = (relative_error + PRODUCT_ERROR) * (root.hi.abs() * size(line.direction));
     let point = Triple::from(line.origin).zip(step, |p, step| sum(p.into(), step));
     let offset = o.zip(step, |o, step| sum(-o, step));
-    Found { t, point: point.into(), normal: DVec3::from(offset) / line.radius }
+    let point = Near::within(point, of_root + SUM_ERROR * (size(line.origin) + line.radius));
+    let offset = Near::within(offset, of_root + SUM_ERROR * (2.0 * line.radius));
+    let crossing = Crossing::new(point, offset, line.radius);
+    points::surely(line, Format::F64, t, crossing)
 }

@@ -1,5 +1,8 @@
+use core::cmp::Ordering;
+
 use glam::DVec3;
 
+use super::crossing::Side;
 use super::format::PointTolerance;
 use super::*;
 use crate::arithmetic::pair::U;
@@ -97,9 +100,134 @@ pub(super) fn parts_of_tolerance(
     [point, normal].map(|parts| parts.into_iter().fold(0.0, f64::max))
 }
 
+/// A number (A + B √D) / C, exactly, with C above 0.
+#[derive(Clone, Debug)]
+pub(super) struct ExactSurd {
+    pub(super) rational: Dyadic,
+    pub(super) along: Dyadic,
+    pub(super) discriminant: Dyadic,
+    pub(super) denominator: Dyadic,
+}
+
+impl ExactSurd {
+    /// How it compares with a number.
+    fn cmp(&self, number: &Dyadic) -> Ordering {
+        let Self { rational, along, discriminant, denominator } = self;
+        let rational = rational - &(denominator * number);
+        let along_squared = &(along * along) * discriminant;
+        let along = if discriminant.is_zero() { Ordering::Equal } else { along.sign() };
+        match (rational.sign(), along) {
+            (sign, Ordering::Equal) | (Ordering::Equal, sign) => sign,
+            (one, other) if one == other => one,
+            (Ordering::Greater, _) => (&rational * &rational).cmp(&along_squared),
+            _ => along_squared.cmp(&(&rational * &rational)),
+        }
+    }
+
+    /// Whether a number is this one rounded to the nearest, ties to even.
+    fn rounds_to<F: Neighbors>(&self, found: F) -> bool {
+        let [_, below, _, above, _] = found.neighborhood();
+        let beyond = |neighbor: F| {
+            let midpoint = (&found.number() + &neighbor.number()).scaled(-1);
+            self.cmp(&midpoint)
+        };
+        // The neighbor of an infinity is itself.
+        let is_within = |neighbor: F, wanted: Ordering| {
+            neighbor == found
+                || match beyond(neighbor) {
+                    Ordering::Equal => found.is_even(),
+                    order => order == wanted,
+                }
+        };
+        is_within(below, Ordering::Greater) && is_within(above, Ordering::Less)
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "to the format")]
+    pub(super) fn rounded(&self, format: Format) -> f64 {
+        let Self { rational, along, discriminant, denominator } = self;
+        let half_chord = along * &discriminant.square_root(300);
+        let sum = if rational.is_negative() == half_chord.is_negative() {
+            rational + &half_chord
+        } else {
+            // Without cancellation.
+            let norm = &(rational * rational) - &(&(along * along) * discriminant);
+            if norm.is_zero() { norm } else { norm.divided_by(&(rational - &half_chord), 300) }
+        };
+        let number = sum.divided_by(denominator, 300);
+        let guess = rounded(format, &number);
+        // That is cut off: at a midpoint, a neighbor may be the right one.
+        match format {
+            Format::F32 => self.right_one(guess as f32).into(),
+            Format::F64 => self.right_one(guess),
+        }
+    }
+
+    fn right_one<F: Neighbors>(&self, guess: F) -> F {
+        let is_right = |candidate: &F| self.rounds_to(*candidate);
+        guess.neighborhood().into_iter().find(is_right).expect("the guess is close")
+    }
+}
+
+/// One of the roots, rounded.
+pub(super) fn exact_root(format: Format, numbers: [f64; 10], side: Side) -> f64 {
+    let ExactChord { a, h, discriminant, .. } = ExactChord::new(numbers);
+    let along = Dyadic::new(if side == Side::Near { -1 } else { 1 }, 0);
+    ExactSurd { rational: h, along, discriminant, denominator: a }.rounded(format)
+}
+
+/// The hit at one of the roots, as the careful steps are to give it.
+fn exact_hit(format: Format, numbers: [f64; 10], side: Side) -> Found {
+    let chord = ExactChord::new(numbers);
+    let ExactLine { d, p, o } = ExactLine::new(numbers);
+    let [a, h, discriminant] = [&chord.a, &chord.h, &chord.discriminant];
+    let surd = |rational: &Dyadic, along: &Dyadic| ExactSurd {
+        rational: rational.clone(),
+        along: if side == Side::Near { -along } else { along.clone() },
+        discriminant: discriminant.clone(),
+        denominator: a.clone(),
+    };
+    let t = exact_root(format, numbers, side);
+    let radius = Dyadic::exactly(numbers[9]);
+    let [mut point, mut normal] = [[0.0; 3]; 2];
+    for axis in 0..3 {
+        let along = h * &d[axis];
+        // A zero has no sign.
+        point[axis] = surd(&(&along + &(a * &p[axis])), &d[axis]).rounded(format) + 0.0;
+        normal[axis] = if radius.is_zero() {
+            let back = ExactSurd {
+                rational: Dyadic::ZERO,
+                along: -&d[axis],
+                discriminant: a.clone(),
+                denominator: a.clone(),
+            };
+            back.rounded(format) + 0.0
+        } else {
+            let exponent = radius.magnitude();
+            let mut offset = surd(&(&along - &(a * &o[axis])), &d[axis]);
+            offset.denominator = offset.denominator.scaled(exponent);
+            let offset = offset.rounded(format);
+            let normal = format.nearest(offset / radius.clone().scaled(-exponent).approximately());
+            let least = if format == Format::F32 { -24 } else { -53 };
+            if normal.abs() < 2_f64.powi(least) { 0.0 } else { normal }
+        };
+    }
+    Found { t, point: point.into(), normal: normal.into() }
+}
+
+/// Asserts that a hit is that of one of the roots.
+pub(super) fn assert_exact(format: Format, numbers: [f64; 10], side: Side, found: &Found) {
+    let bits = |found: &Found| {
+        [found.point, found.normal].map(|vector| vector.to_array().map(f64::to_bits))
+    };
+    let expected = exact_hit(format, numbers, side);
+    assert_eq!(found.t, expected.t, "{format:?} {side:?} {numbers:?}");
+    let (found_bits, expected_bits) = (bits(found), bits(&expected));
+    assert_eq!(found_bits, expected_bits, "{found:?} {expected:?} {format:?} {numbers:?}");
+}
+
 /// Both roots by the careful steps, `None` for a miss.
 fn both(numbers: [f64; 10], format: Format) -> Option<[f64; 2]> {
-    carefully(&line(numbers), format, &Question::Both)?.both()
+    carefully(&line(numbers), format, &Question::Both)?.roots()
 }
 
 fn nearest_ahead(numbers: [f64; 10], format: Format) -> Option<Found> {
@@ -140,10 +268,8 @@ fn careful_answers_are_the_exact_ones_rounded() {
         let ahead = rounded.and_then(|roots| roots.iter().position(|t| *t > 0.0));
         let found = nearest_ahead(numbers, format);
         assert_eq!(found.map(|found| found.t), ahead.map(|side| rounded.unwrap()[side]));
-        if let (Some(found), Some(roots), Some(side)) = (found, expected, ahead) {
-            let tolerance = format.point_tolerance();
-            let parts = parts_of_tolerance(numbers, &roots[side], &found, tolerance);
-            assert!(parts.iter().all(|part| *part <= 1.0), "{parts:?} {format:?} {numbers:?}");
+        if let (Some(found), Some(side)) = (found, ahead) {
+            assert_exact(format, numbers, [Side::Near, Side::Far][side], &found);
         }
     }
 }
@@ -214,7 +340,7 @@ fn a_range_is_half_open_and_may_begin_behind_the_first_root() {
         assert_eq!(nearest(3.5..7.0), None);
         assert_eq!(nearest(f64::NAN..f64::INFINITY), None);
         let question = Question::Nearest(0.0..9.0);
-        assert!(carefully(&line, format, &question).unwrap().both().is_none());
+        assert!(carefully(&line, format, &question).unwrap().roots().is_none());
         assert!(carefully(&line, format, &Question::Both).unwrap().nearest().is_none());
     }
 }
@@ -280,8 +406,9 @@ fn a_sphere_of_no_radius_is_hit_exactly_at_its_center() {
         assert_eq!(both(numbers, format), Some([3.0; 2]));
         let found = nearest_ahead(numbers, format).expect("through the center");
         assert_eq!((found.t, found.point), (3.0, DVec3::new(3.0, 6.0, -9.0)));
+        assert_exact(format, numbers, Side::Near, &found);
         let back = -DVec3::new(1.0, 2.0, -3.0).normalize();
-        assert!((found.normal - back).length() < 1e-15, "back along the ray");
+        assert!((found.normal - back).length() < 1e-7, "back along the ray");
         let mut beside = numbers;
         beside[0] += 1e-6;
         assert_eq!(both(single(beside), format), None);

@@ -28,7 +28,7 @@ pub(in crate::root) enum Effort {
 /// Which of the steps that are the same for both precisions decides.
 pub(in crate::root) fn careful_effort(line: &Line, format: Format, range: Range<f64>) -> Effort {
     let question = Question::Nearest(range);
-    let verdict = pairs::chord(line, format).and_then(|chord| question.ask(&chord));
+    let verdict = pairs::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
     if matches!(verdict, Verdict::Doubt) { Effort::Integers } else { Effort::Pairs }
 }
 
@@ -37,7 +37,7 @@ fn effort(sphere: &Sphere, ray: &Ray) -> Effort {
     let setting = Setting::new(sphere, ray);
     let chord = setting.chord::<Quadratic>();
     let is_certain = |t: f64| t as f32 >= f32::MIN_POSITIVE;
-    match plain::nearest_ahead(&chord, setting.radius_squared, CLEAR, || None) {
+    match setting.nearest_ahead(&chord, false) {
         Nearest::Miss => return Effort::Hot,
         Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) && is_certain(t) => {
             return Effort::Hot;
@@ -46,7 +46,7 @@ fn effort(sphere: &Sphere, ray: &Ray) -> Effort {
     }
     let is_far = chord.distance_squared > NEAR * setting.radius_squared;
     let nearest =
-        if is_far { from_afar(&setting, &chord) } else { again(&setting, &setting.line, &chord) };
+        if is_far { from_afar(&setting, &chord) } else { setting.nearest_ahead(&chord, true) };
     match nearest {
         Nearest::Miss => return Effort::Again,
         Nearest::Root { t, .. } if is_certain(t) => {

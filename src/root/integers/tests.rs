@@ -1,6 +1,6 @@
 use super::*;
 use crate::arithmetic::scaling::scale;
-use crate::root::tests::{ExactLine, line, parts_of_tolerance, single};
+use crate::root::tests::{assert_exact, line, single};
 use crate::testing::{Dyadic, ExactChord, Lie, Random, exactly, nearest, part_of_bound, setting};
 
 fn number(wide: Wide) -> Dyadic {
@@ -63,19 +63,14 @@ fn chords_in_integers_are_exact_to_96_bits() {
     for _ in 0..count {
         let numbers = random_numbers(&mut random);
         let exact = ExactChord::new(numbers);
-        let moment = ExactLine::new(numbers).moment();
         let line = line(numbers);
         for way in ways(&line) {
             narrow += u32::from(!way.is_wide());
-            let [x, y, z] = way.moment();
             for (found, expected) in [
                 (way.a(), &exact.a),
                 (way.h(), &exact.h),
                 (way.power(), &exact.power),
                 (way.discriminant(), &exact.discriminant),
-                (x, &moment[0]),
-                (y, &moment[1]),
-                (z, &moment[2]),
             ] {
                 assert_eq!(found.is_zero(), expected.is_zero(), "{numbers:?}");
                 assert_eq!(found.is_negative(), expected.is_negative(), "{numbers:?}");
@@ -250,12 +245,13 @@ fn roots_are_compared_exactly_with_numbers_on_and_beside_them() {
 #[test]
 fn roots_in_integers_are_the_nearest() {
     let mut random = Random::new(4);
+    let mut hits = 0;
     for _ in 0..800 {
         let numbers = random_numbers(&mut random);
         let exact = ExactChord::new(numbers);
         let line = line(numbers);
         for way in ways(&line) {
-            let Verdict::Hit(found) = chord(&line, way, Format::F64) else {
+            let Verdict::Hit(mut found) = chord(&line, way, Format::F64) else {
                 assert!(exact.discriminant.is_negative(), "{numbers:?}");
                 continue;
             };
@@ -272,17 +268,14 @@ fn roots_in_integers_are_the_nearest() {
                 if numbers[9] == 0.0 {
                     continue;
                 }
-                let hit = found.hit(side, t, root).expect("never in doubt");
-                assert!(hit.point.is_finite() && hit.normal.is_finite(), "{numbers:?}");
-                if exact.discriminant.is_zero() || expected.is_zero() {
-                    continue;
+                if let Some(hit) = found.hit(side, t, root) {
+                    assert_exact(Format::F64, numbers, side, &hit);
+                    hits += 1;
                 }
-                let tolerance = Format::F64.point_tolerance();
-                let parts = parts_of_tolerance(numbers, expected, &hit, tolerance);
-                assert!(parts.iter().all(|part| *part <= 1.0), "{parts:?} {side:?} {numbers:?}");
             }
         }
     }
+    assert!(hits > 1000, "{hits} hits");
 }
 
 #[test]
@@ -291,7 +284,7 @@ fn roots_in_integers_are_the_nearest_f32_too() {
         let Some(roots) = ExactChord::new(numbers).roots() else { return };
         let line = line(numbers);
         for way in ways(&line) {
-            let Verdict::Hit(found) = chord(&line, way, Format::F32) else {
+            let Verdict::Hit(mut found) = chord(&line, way, Format::F32) else {
                 panic!("this hits: {numbers:?}");
             };
             for (side, expected) in [Side::Near, Side::Far].into_iter().zip(&roots) {

@@ -1,0 +1,95 @@
+use super::*;
+use crate::arithmetic::pair::two_sum;
+
+/// A line along x from (-9, 1, 0) to a sphere of radius 5 around the origin, scaled: it is at (-√24, 1, 0) of it.
+fn line(scale: f64) -> Line {
+    Line {
+        origin: DVec3::new(-9.0, 1.0, 0.0) * scale,
+        direction: DVec3::X,
+        center: DVec3::ZERO,
+        radius: 5.0 * scale,
+    }
+}
+
+/// -√24 as a pair.
+fn x() -> Pair {
+    let root = 24_f64.sqrt();
+    // By Newton's step: 24 - root² is exact.
+    -two_sum(root, (-root).mul_add(root, 24.0) / (2.0 * root))
+}
+
+/// The hit where each coordinate is known within that part of the scale.
+fn found(format: Format, scale: f64, error: f64) -> Option<Found> {
+    let at = |x: f64| Pair::from(x * scale);
+    let x = Pair { hi: x().hi * scale, lo: x().lo * scale };
+    let value = Triple { x, y: at(1.0), z: at(0.0) };
+    let near = Near::within(value, error * scale);
+    let crossing = Crossing::new(near, near, line(scale).radius);
+    surely(line(scale), format, 1.0, crossing)
+}
+
+#[test]
+fn points_and_normals_are_rounded_once() {
+    let root = -(24_f64.sqrt());
+    #[expect(clippy::cast_possible_truncation, reason = "rounding is what this is about")]
+    let single = [root as f32, 1.0 / 5.0, (root as f32) / 5.0].map(f64::from);
+    for (format, error, [x, y_normal, x_normal]) in [
+        (Format::F64, 2_f64.powi(-90), [root, 1.0 / 5.0, root / 5.0]),
+        (Format::F32, 2_f64.powi(-40), single),
+    ] {
+        for scale in [1.0, 2_f64.powi(30), 2_f64.powi(-30), 2_f64.powi(60), 2_f64.powi(-120)] {
+            let found = found(format, scale, error).expect("certain");
+            assert_eq!(found.point, DVec3::new(x, 1.0, 0.0) * scale, "{format:?} {scale:e}");
+            assert_eq!(found.normal, DVec3::new(x_normal, y_normal, 0.0), "{format:?} {scale:e}");
+            assert_eq!(found.t, 1.0);
+        }
+    }
+}
+
+#[test]
+fn what_is_not_certain_is_not_told() {
+    assert!(found(Format::F64, 1.0, 2_f64.powi(-50)).is_none());
+    assert!(found(Format::F32, 1.0, 2_f64.powi(-20)).is_none());
+    assert!(found(Format::F64, 1.0, f64::NAN).is_none());
+    assert!(found(Format::F64, 1.0, f64::INFINITY).is_none());
+    // Where the sphere is so small or large that there are no units for it.
+    assert!(found(Format::F64, 2_f64.powi(-1000), 0.0).is_none());
+    assert!(found(Format::F64, 2_f64.powi(1000), 0.0).is_none());
+}
+
+#[test]
+fn next_to_zero_a_normal_is_zero_and_a_point_in_doubt() {
+    let along_z = Line { direction: DVec3::new(1.0, 0.0, 1.0), ..line(1.0) };
+    let found = |point: f64, offset: f64, error: f64| {
+        let near = |z: f64| {
+            let value = Triple { x: x(), y: Pair::from(1.0), z: Pair::from(z) };
+            Near::within(value, error)
+        };
+        let (point, offset) = (near(point), near(offset));
+        surely(along_z, Format::F64, 1.0, Crossing::new(point, offset, 5.0))
+    };
+    let error = 2_f64.powi(-90);
+    // Below 5 2^-53 for sure.
+    for offset in [0.0, -0.0, 1e-27, -1e-27, 5.5e-16, -5.5e-16] {
+        let found = found(1.0, offset, error).expect("certain");
+        assert_eq!(found.normal.z.to_bits(), 0, "{offset:e}");
+    }
+    assert_eq!(found(1.0, 5.6e-16, 1e-36).expect("certain").normal.z, 5.6e-16 / 5.0);
+    assert!(found(1.0, 5.6e-16, error).is_none(), "as small, but less certain");
+    assert!(found(0.0, 1.0, error).is_none(), "a point has no smallest coordinate");
+    assert_eq!(found(-0.0, 1.0, 0.0).expect("certain").point.z.to_bits(), 0);
+}
+
+#[test]
+fn numbers_are_normalized() {
+    for (x, expected, exponent) in [
+        (1.0, 1.0, 0),
+        (5.0, 1.25, 2),
+        (0.75, 1.5, -1),
+        (f64::MIN_POSITIVE, 1.0, -1022),
+        (3.0 * f64::from_bits(1), 1.5, -1073),
+        (f64::MAX, 2.0 - f64::EPSILON, 1023),
+    ] {
+        assert_eq!(normalized(x), (expected, exponent), "{x:e}");
+    }
+}

@@ -1,0 +1,324 @@
+//! The roots, and the coordinates of the points there, as numbers (A + B √D) / C of integers.
+//!
+//! With a, h and D of the quadratic's [`chord`](super::chord), and o = c - p, these are
+//!
+//! ```text
+//! t           (h ∓ √D) / a
+//! p + t d     (p a + h d ∓ d √D) / a
+//! t d - o     (h d - o a ∓ d √D) / a
+//! ```
+//!
+//! A number of the kind less a float is of the kind again. Where A and B √D nearly cancel, their sum is (A² - B² D) / (A - B √D), with
+//! a dividend, the norm, that is exact, and a divisor in which nothing cancels. So the sign of a number is certain, zero too, and its
+//! size is known within [`ERROR`] of itself. That is all that [`Surd::round`] needs.
+//!
+//! The integers have as many digits as it takes. Lengths are multiples of one power of two, and directions of another.
+//! Between the smallest and the largest `f32` lie 277 binary places, and 2,098 for `f64`. The widest numbers are those of the normal: A
+//! has three times as many places, and 150 or 1,075 more down to the midpoint next to zero, in all 986 bits or 7,380; the norm has
+//! twice as many.
+
+use glam::DVec3;
+
+use super::crossing::{Answer, Crossings, Found, Line, Question, Side, Verdict};
+use super::format::Format;
+use super::points;
+use crate::arithmetic::comparison::is_zero;
+use crate::arithmetic::float::Float;
+use crate::arithmetic::integer::{Factor, Integer, PLACES};
+use crate::arithmetic::pair::U;
+use crate::arithmetic::scaling::{integer_and_exponent, scale};
+
+#[cfg(test)]
+mod tests;
+
+/// For the norm, and some digits more: the one that a sum has to spare, and zeros at the top of the factors.
+pub(super) const F32_DIGITS: usize = (2304 / PLACES) as usize;
+pub(super) const F64_DIGITS: usize = (15_360 / PLACES) as usize;
+
+/// How far off what is left of a number may be, as a part of itself.
+///
+/// An integer of many digits is rounded by 3 u, and √D by half of that and u, its product with B by u. Where their sum is at least a
+/// quarter of A, it errs by 4 times 3 u and 5 times 3.5 u and by u, and the division by C brings 4 u more: 35 u. The norm, over a
+/// difference in which nothing cancels, has less.
+const ERROR: f64 = 64.0 * U;
+
+/// A number (A + B √D) / C, in units of 2^`unit`.
+struct Surd<'a, 'm> {
+    /// A.
+    rational: &'a Integer<'m>,
+    /// B.
+    coefficient: Factor,
+    /// D.
+    discriminant: &'a Integer<'m>,
+    /// C.
+    denominator: &'a Integer<'m>,
+    unit: i32,
+}
+
+/// The memory that [`Surd::less`] needs.
+struct Scratch<'m> {
+    rational: Integer<'m>,
+    square: Integer<'m>,
+    norm: Integer<'m>,
+}
+
+impl Surd<'_, '_> {
+    /// The number less `integer` 2^`exponent`, within [`ERROR`] of itself.
+    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    fn less(&self, integer: i64, exponent: i32, scratch: &mut Scratch) -> Float {
+        let Scratch { rational, square, norm } = scratch;
+        // In the finer of the two units.
+        let finer = (self.unit - exponent).max(0);
+        let coarser = (exponent - self.unit).max(0);
+        rational.clear();
+        rational.add_times(self.rational, Factor { integer: 1, places: finer.unsigned_abs() });
+        if integer != 0 {
+            let subtrahend = Factor { integer: -integer, places: coarser.unsigned_abs() };
+            rational.add_times(self.denominator, subtrahend);
+        }
+        let places = self.coefficient.places + finer.unsigned_abs();
+        let coefficient = Factor { places, ..self.coefficient };
+
+        let x = rational.to_float();
+        let y = coefficient.to_float() * self.discriminant.to_float().sqrt();
+        let mut sum = x + y;
+        if sum.is_less_than(x.times(0.25)) {
+            square.clear();
+            square.add_times(self.discriminant, coefficient);
+            norm.clear();
+            norm.add(rational, rational);
+            norm.add_times(square, coefficient.negated());
+            sum = norm.to_float() / (x - y);
+        }
+        let Float { value, exponent } = sum / self.denominator.to_float();
+        Float { value, exponent: exponent + self.unit - finer }
+    }
+
+    /// The number, rounded.
+    ///
+    /// It is divided into a multiple of the last place and what is left, until that tells which multiple is the nearest. Where what is
+    /// left is next to a midpoint, how the number compares with that tells.
+    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    fn round(&self, format: Format, scratch: &mut Scratch) -> f64 {
+        /// Of fewer last places the error is far below half of one.
+        const FEW: i64 = 1 << 32;
+        let mut rest = self.less(0, self.unit, scratch);
+        if is_zero(rest.value) {
+            return 0.0;
+        }
+        let sign = rest.value;
+        // As if the number were as small as it may be: with a last place too fine it has a digit too many, and that shows.
+        let least = rest.times(1.0 - 2.0 * ERROR);
+        let mut place =
+            (least.leading_exponent() + 1 - format.digits()).max(format.least_exponent());
+        let mut multiple: i64 = 0;
+        loop {
+            let (magnitude, exponent) = integer_and_exponent(rest.value);
+            let away = if rest.value.is_sign_negative() { -1 } else { 1 };
+            let (whole, mut is_above_half) = divided(magnitude, place - rest.exponent - exponent);
+            multiple += away * whole;
+            if is_above_half.is_none() && whole < FEW {
+                let left = self.less(2 * multiple + away, place - 1, scratch).value;
+                let is_odd = multiple % 2 != 0;
+                let is_above = left.is_sign_negative() == (away < 0);
+                is_above_half = Some(if is_zero(left) { is_odd } else { is_above });
+            }
+            if let Some(is_above_half) = is_above_half {
+                multiple += if is_above_half { away } else { 0 };
+                let has_digit_too_many = multiple.unsigned_abs() > 1 << format.digits();
+                if !has_digit_too_many {
+                    break;
+                }
+                multiple /= 2;
+                place += 1;
+            }
+            rest = self.less(multiple, place, scratch);
+        }
+        #[expect(clippy::cast_precision_loss, reason = "at most 53 bits")]
+        let multiple = multiple as f64;
+        format.nearest(scale(multiple.copysign(sign), place))
+    }
+}
+
+/// An integer over 2^`below`, rounded down, and whether the rest is more than half, if that is certain where the integer is within
+/// [`ERROR`] of itself.
+fn divided(integer: u64, below: i32) -> (i64, Option<bool>) {
+    /// 2⁻⁴⁷ of it, as [`ERROR`] is.
+    const ERROR_PLACES: u32 = 47;
+    #[expect(clippy::cast_possible_wrap, reason = "at most 55 bits")]
+    match below {
+        // Of 53 bits and one or two more, all places are uncertain.
+        ..=0 => ((integer << -below) as i64, None),
+        1..=62 => {
+            let half = 1 << (below - 1);
+            let left = integer % (2 * half);
+            let is_certain = left.abs_diff(half) > integer >> ERROR_PLACES;
+            ((integer >> below) as i64, is_certain.then_some(left > half))
+        }
+        _ => (0, Some(false)),
+    }
+}
+
+/// The chord of a line in integers, and what it belongs to.
+struct InSurds<'m> {
+    line: &'m Line,
+    format: Format,
+    /// The exponents of the units of lengths and of directions.
+    length_unit: i32,
+    direction_unit: i32,
+    a: Integer<'m>,
+    h: Integer<'m>,
+    discriminant: Integer<'m>,
+    rational: Integer<'m>,
+    scratch: Scratch<'m>,
+}
+
+/// The exponent of the largest power of two that all coordinates are multiples of, any if these are zeros; `None` where one is not
+/// finite.
+#[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+fn common_unit(vectors: &[DVec3]) -> Option<i32> {
+    /// That of the last place of the largest number.
+    const LARGEST: i32 = 971;
+    let mut unit = LARGEST;
+    for vector in vectors {
+        for coordinate in vector.to_array() {
+            let (integer, exponent) = integer_and_exponent(coordinate);
+            if exponent > LARGEST {
+                return None;
+            }
+            if integer != 0 {
+                #[expect(clippy::cast_possible_wrap, reason = "at most 52")]
+                let zeros = integer.trailing_zeros() as i32;
+                unit = unit.min(exponent + zeros);
+            }
+        }
+    }
+    Some(unit)
+}
+
+impl InSurds<'_> {
+    /// Computes the chord of the line; `None` where that is none or where it misses.
+    #[inline(never)]
+    fn compute(&mut self) -> Option<()> {
+        let &Line { origin, direction, center, radius } = self.line;
+        let length_unit = common_unit(&[origin, center, DVec3::splat(radius)])?;
+        let direction_unit = common_unit(&[direction])?;
+        (self.length_unit, self.direction_unit) = (length_unit, direction_unit);
+        let Self { a, h, discriminant, .. } = self;
+        let Scratch { rational: o, square: d, norm: power } = &mut self.scratch;
+        for axis in 0..3 {
+            let coordinate = Factor::new(direction[axis], direction_unit);
+            d.clear();
+            d.add_number(coordinate);
+            o.clear();
+            o.add_number(Factor::new(center[axis], length_unit));
+            o.add_number(Factor::new(-origin[axis], length_unit));
+            a.add_times(d, coordinate);
+            h.add_times(o, coordinate);
+            power.add(o, o);
+        }
+        let radius = Factor::new(radius, length_unit);
+        o.clear();
+        o.add_number(radius);
+        power.add_times(o, radius.negated());
+        discriminant.add(h, h);
+        discriminant.subtract(a, power);
+        let is_chord = radius.integer >= 0 && !a.is_zero() && !discriminant.is_negative();
+        is_chord.then_some(())
+    }
+}
+
+impl Crossings for InSurds<'_> {
+    type Root = ();
+
+    fn root(&mut self, side: Side) -> Option<(f64, ())> {
+        let surd = Surd {
+            rational: &self.h,
+            coefficient: Factor { integer: if side == Side::Near { -1 } else { 1 }, places: 0 },
+            discriminant: &self.discriminant,
+            denominator: &self.a,
+            unit: self.length_unit - self.direction_unit,
+        };
+        Some((surd.round(self.format, &mut self.scratch), ()))
+    }
+
+    fn hit(&mut self, side: Side, t: f64, (): ()) -> Option<Found> {
+        let Self {
+            line,
+            format,
+            length_unit,
+            direction_unit,
+            a,
+            h,
+            discriminant,
+            rational,
+            scratch,
+            ..
+        } = self;
+        let &Line { origin, direction, center, radius } = *line;
+        let has_radius = radius > 0.0;
+        let (radius, exponent) = points::normalized(radius);
+        let [mut point, mut normal] = [DVec3::ZERO; 2];
+        for axis in 0..3 {
+            let d = Factor::new(direction[axis], *direction_unit);
+            let coefficient = if side == Side::Near { d.negated() } else { d };
+            rational.clear();
+            rational.add_times(h, d);
+            rational.add_times(a, Factor::new(origin[axis], *length_unit));
+            let unit = *length_unit;
+            let surd = Surd { rational, coefficient, discriminant, denominator: a, unit };
+            point[axis] = surd.round(*format, scratch) + 0.0;
+            let surd = if has_radius {
+                rational.add_times(a, Factor::new(-center[axis], unit));
+                let unit = unit - exponent;
+                Surd { rational, coefficient, discriminant, denominator: a, unit }
+            } else {
+                // There is no outward normal, but one back along the ray, -d √a / a.
+                rational.clear();
+                Surd {
+                    rational,
+                    coefficient: d.negated(),
+                    discriminant: a,
+                    denominator: a,
+                    unit: 0,
+                }
+            };
+            let rounded = surd.round(*format, scratch) + 0.0;
+            normal[axis] =
+                if has_radius { points::normal(*format, rounded, radius) } else { rounded };
+        }
+        Some(Found { t, point, normal })
+    }
+}
+
+/// Answers a question for any line.
+#[cold]
+#[inline(never)]
+pub(super) fn answer<const N: usize>(
+    line: &Line,
+    format: Format,
+    question: &Question,
+) -> Option<Answer> {
+    let mut memory = [[0; N]; 7];
+    let [a, h, discriminant, rational, x, y, z] = &mut memory;
+    let mut chord = InSurds {
+        line,
+        format,
+        length_unit: 0,
+        direction_unit: 0,
+        a: Integer::new(a),
+        h: Integer::new(h),
+        discriminant: Integer::new(discriminant),
+        rational: Integer::new(rational),
+        scratch: Scratch {
+            rational: Integer::new(x),
+            square: Integer::new(y),
+            norm: Integer::new(z),
+        },
+    };
+    chord.compute()?;
+    match question.ask(&mut chord) {
+        Verdict::Hit(answer) => Some(answer),
+        Verdict::Miss | Verdict::Doubt => None,
+    }
+}
