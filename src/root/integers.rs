@@ -1,4 +1,6 @@
-//! The geometric derivation in integers: exact, and so never in doubt.
+//! The geometric derivation in integers: exact, and so never in doubt of a root.
+//!
+//! Points are computed from numbers rounded to 96 bits, and may be in doubt.
 //!
 //! Where the digits of the coordinates span no more than 61 binary places, as they do unless by design, a coordinate is an
 //! `i64` and 256 bits hold the discriminant ([`Narrow`]). Otherwise a sum of products is collected in an accumulator that holds

@@ -218,6 +218,7 @@ fn next_to_zero(
     Some(Found { t, point, normal })
 }
 
+/// The number that both ends are rounded to.
 fn certain(low: f64, high: f64) -> Option<f64> {
     (low == high).then_some(low)
 }

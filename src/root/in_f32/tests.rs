@@ -4,7 +4,7 @@ use super::*;
 use crate::geometric::ClosestApproach;
 use crate::root::crossing::{Question, Verdict};
 use crate::root::format::Format;
-use crate::root::tests::{line, parts_of_tolerance, single};
+use crate::root::tests::{assert_exact, line, parts_of_tolerance, single};
 use crate::root::{in_f64, pairs};
 use crate::testing::{Dyadic, ExactChord, Lie, Random, nearest, part_of_bound, search, setting};
 
@@ -223,4 +223,30 @@ fn roots_and_points_from_afar_keep_their_bounds() {
     println!("from afar: {} of the bound of roots, {} of points", worst[0], worst[1]);
     assert!(worst.iter().all(|part| *part <= 1.0) && worst[1] > 0.03, "{worst:?}");
     assert!(certain > 500, "{certain}");
+}
+
+#[test]
+fn hits_from_exactly_on_the_surface_are_rounded_correctly() {
+    let family = FAMILIES.iter().find(|family| family.name == "on the surface, exactly");
+    let family = family.expect("there is one");
+    let mut rng = Rng::new(3);
+    let (mut hits, mut misses, count) = (0, 0, 2000);
+    for _ in 0..count {
+        let (ray, sphere) = (family.f32)(&mut rng);
+        let setting = Setting::new(&sphere, &ray);
+        let line = Line::new(&sphere, &ray);
+        let chord = setting.chord::<Quadratic>();
+        match from_the_surface(&line, chord, 0.0..f32::INFINITY) {
+            Verdict::Hit(found) => {
+                let [c, p, d] = [line.center, line.origin, line.direction].map(|v| v.to_array());
+                let numbers = [&c[..], &p, &d, &[line.radius]].concat();
+                let numbers = numbers.try_into().expect("ten numbers");
+                assert_exact(Format::F32, numbers, Side::Far, &found);
+                hits += 1;
+            }
+            Verdict::Miss => misses += 1,
+            Verdict::Doubt => {}
+        }
+    }
+    assert!(hits > count * 2 / 5 && misses > count * 2 / 5, "{hits} hits, {misses} misses");
 }
