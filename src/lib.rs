@@ -65,7 +65,7 @@
 //! - `libm`: square roots from the [libm](https://docs.rs/libm) crate, for `no_std`. One of `std` and `libm` is needed. On a
 //!   Cortex-M4F, whose hardware has no `f64`, an easy hit takes 35 times the instructions of the textbook's formula, one from 1,000
 //!   radii away 50 times, and a miss through [`nearest`] 2.3 times. Beyond the formula, `intersect` of a [`Sphere`] takes 16 kB of
-//!   code there in `f32` and 17 kB in both precisions, optimized for size, and in WebAssembly 10 kB in `f32` and 54 kB in both
+//!   code there in `f32` and 17 kB in both precisions, optimized for size, and in WebAssembly 10 kB in `f32` and 64 kB in both
 //!   (`tests/targets/run costs`, in the repository).
 //! - `alloc`: [`Spheres`] and [`SphereBvh`], and [`Hittable`] for `Vec`, `Box`, `Rc` and `Arc`. Implied by `std`.
 //! - `serde`: `Serialize` and `Deserialize` for all data types. A [`Camera`] is validated when it is deserialized. Formats
