@@ -29,7 +29,7 @@ impl Float {
         Self { value: self.value * factor, ..self }
     }
 
-    /// Whether its magnitude is.
+    /// Whether its magnitude is less than that of the other.
     pub(crate) fn is_less_than(self, other: Self) -> bool {
         let abs = |x: Self| Self { value: x.value.abs(), ..x };
         (abs(self) - abs(other)).value < 0.0

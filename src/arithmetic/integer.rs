@@ -29,14 +29,14 @@ const fn lower(double: Double) -> Digit {
     double as Digit
 }
 
-/// `integer` 2^`places`.
+/// An integer shifted to the left: `integer` 2^`places`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Factor {
+pub(crate) struct Shifted {
     pub(crate) integer: i64,
     pub(crate) places: u32,
 }
 
-impl Factor {
+impl Shifted {
     /// A finite number that is an integer of units of 2^`unit`.
     #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
     pub(crate) fn new(number: f64, unit: i32) -> Self {
@@ -105,7 +105,7 @@ impl<'a> Integer<'a> {
 
     /// Adds a product.
     #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
-    pub(crate) fn add_times(&mut self, a: &Integer, Factor { integer, places }: Factor) {
+    pub(crate) fn add_times(&mut self, a: &Integer, Shifted { integer, places }: Shifted) {
         let magnitude = Double::from(integer.unsigned_abs());
         let shift = places % PLACES;
         let first = Double::from(lower(magnitude)) << shift;
@@ -116,7 +116,7 @@ impl<'a> Integer<'a> {
 
     /// Adds a number.
     #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
-    pub(crate) fn add_number(&mut self, number: Factor) {
+    pub(crate) fn add_number(&mut self, number: Shifted) {
         let one = Integer { digits: &mut [1], len: 1, is_negative: false };
         self.add_times(&one, number);
     }

@@ -133,17 +133,17 @@ pub(super) struct Corrected {
 impl Corrected {
     #[inline(always)]
     pub(super) fn point(&self) -> DVec3 {
-        let coordinate = |p: f64, step: f64, low: f64| {
-            let sum = two_sum(p, step);
-            sum.hi + (sum.lo + low)
-        };
-        let Self { origin, step, .. } = *self;
-        let low = self.step_low + self.correction;
-        DVec3::new(
-            coordinate(origin.x, step.x, low.x),
-            coordinate(origin.y, step.y, low.y),
-            coordinate(origin.z, step.z, low.z),
-        )
+        self.point_in_pairs().map(|coordinate| coordinate.hi + coordinate.lo).into()
+    }
+
+    #[inline(always)]
+    fn point_in_pairs(&self) -> Triple<Pair> {
+        let low = Triple::from(self.step_low + self.correction);
+        let step = Triple::from(self.step).zip(low, |hi, lo| Pair { hi, lo });
+        Triple::from(self.origin).zip(step, |p, step| {
+            let sum = two_sum(p, step.hi);
+            Pair { hi: sum.hi, lo: sum.lo + step.lo }
+        })
     }
 
     /// From the center to the point.
@@ -164,15 +164,10 @@ impl Corrected {
         let of_root = RESIDUAL_ERROR * (line.radius * size * per_half_chord) + tau * of_slope;
         // Twice as much, for what is left out.
         let error = 2.0 * (length * of_root + OFFSET_ERROR * size);
-        let low = Triple::from(self.step_low + self.correction);
-        let step = Triple::from(self.step).zip(low, |hi, lo| Pair { hi, lo });
-        let point = Triple::from(line.origin).zip(step, |p, step| {
-            let sum = two_sum(p, step.hi);
-            Pair { hi: sum.hi, lo: sum.lo + step.lo }
-        });
         let low = Triple::from(self.w.low + self.correction);
         let offset = Triple::from(self.w.high).zip(low, |hi, lo| Pair { hi, lo });
-        let [point, offset] = [point, offset].map(|value| Near::within(value, error));
+        let [point, offset] =
+            [self.point_in_pairs(), offset].map(|value| Near::within(value, error));
         let crossing = Crossing::new(point, offset, line.radius);
         points::surely(line, Format::F64, self.t.hi, crossing)
     }

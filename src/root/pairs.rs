@@ -74,6 +74,9 @@ const SLOPE_ERROR: f64 = 5.0 * U;
 const CORRECTION_ERROR: f64 = 12.0 * U;
 /// Of the sum that the root is, in itself.
 const PAIR_ERROR: f64 = 2.0 * V;
+/// Of a point, in the center and in the offset, which is less than twice the radius: of their low parts a sum is rounded, and once more
+/// where the error is added.
+const SUM_ERROR: f64 = 4.0 * V;
 /// The largest a τ / s.
 const MOST_BEND: f64 = 1.0 / 64.0;
 
@@ -275,9 +278,6 @@ impl Corrected {
         t: f64,
         error: f64,
     ) -> Option<Found> {
-        /// Of the offset, which is less than twice the radius, and of the center: of their low parts a sum is rounded, and once more where
-        /// the error is added.
-        const SUM_ERROR: f64 = 4.0 * V;
         let Scaled { radius, length_exponent: unit, .. } = *scaled;
         let offset = self.offset(scaled);
         let center = scaled.position(line.center);
@@ -313,7 +313,7 @@ impl Corrected {
         }
         let relative_error = self.error / self.t.hi.abs() + PAIR_ERROR;
         let root = (self.t, scaled.exponent(), relative_error);
-        let offset = Near::within(self.offset(scaled), error + 4.0 * V * scaled.radius);
+        let offset = Near::within(self.offset(scaled), error + SUM_ERROR * scaled.radius);
         let crossing = Crossing::from_root(line, root, offset, scaled.radius);
         points::surely(*line, format, t, crossing)
     }

@@ -163,7 +163,7 @@ fn unscaled([low, high]: [f64; 2], unit: i32) -> [f64; 2] {
     if ends.iter().all(|end| end.abs() >= 2.0 * f64::MIN_POSITIVE) {
         return ends;
     }
-    // They are rounded a second time: as they were at least before the first.
+    // A subnormal end is rounded twice: it is moved outwards by as much as the first time may have moved it inwards.
     let [low, high] = [low - low.abs() * f64::EPSILON, high + high.abs() * f64::EPSILON];
     [low, high].map(|end| scale(end, unit))
 }

@@ -24,14 +24,15 @@ use super::format::Format;
 use super::points;
 use crate::arithmetic::comparison::is_zero;
 use crate::arithmetic::float::Float;
-use crate::arithmetic::integer::{Factor, Integer, PLACES};
+use crate::arithmetic::integer::{Integer, PLACES, Shifted};
 use crate::arithmetic::pair::U;
 use crate::arithmetic::scaling::{integer_and_exponent, scale};
 
 #[cfg(test)]
 mod tests;
 
-/// For the norm, and some digits more: the one that a sum has to spare, and zeros at the top of the factors.
+/// The digits of an integer for lines in each precision: room for the norm, the digit that a sum has to spare, and zeros at the top of the
+/// factors.
 pub(super) const F32_DIGITS: usize = (2304 / PLACES) as usize;
 pub(super) const F64_DIGITS: usize = (15_360 / PLACES) as usize;
 
@@ -44,13 +45,13 @@ const ERROR: f64 = 64.0 * U;
 
 /// A number (A + B √D) / C, in units of 2^`unit`.
 struct Surd<'a, 'm> {
-    /// A.
+    /// A, the rational part.
     rational: &'a Integer<'m>,
-    /// B.
-    coefficient: Factor,
-    /// D.
+    /// B, by which √D is multiplied.
+    coefficient: Shifted,
+    /// D, of which the square root is taken.
     discriminant: &'a Integer<'m>,
-    /// C.
+    /// C, by which the sum is divided.
     denominator: &'a Integer<'m>,
     unit: i32,
 }
@@ -71,13 +72,13 @@ impl Surd<'_, '_> {
         let finer = (self.unit - exponent).max(0);
         let coarser = (exponent - self.unit).max(0);
         rational.clear();
-        rational.add_times(self.rational, Factor { integer: 1, places: finer.unsigned_abs() });
+        rational.add_times(self.rational, Shifted { integer: 1, places: finer.unsigned_abs() });
         if integer != 0 {
-            let subtrahend = Factor { integer: -integer, places: coarser.unsigned_abs() };
+            let subtrahend = Shifted { integer: -integer, places: coarser.unsigned_abs() };
             rational.add_times(self.denominator, subtrahend);
         }
         let places = self.coefficient.places + finer.unsigned_abs();
-        let coefficient = Factor { places, ..self.coefficient };
+        let coefficient = Shifted { places, ..self.coefficient };
 
         let x = rational.to_float();
         let y = coefficient.to_float() * self.discriminant.to_float().sqrt();
@@ -207,17 +208,17 @@ impl InSurds<'_> {
         let Self { a, h, discriminant, .. } = self;
         let Scratch { rational: o, square: d, norm: power } = &mut self.scratch;
         for axis in 0..3 {
-            let coordinate = Factor::new(direction[axis], direction_unit);
+            let coordinate = Shifted::new(direction[axis], direction_unit);
             d.clear();
             d.add_number(coordinate);
             o.clear();
-            o.add_number(Factor::new(center[axis], length_unit));
-            o.add_number(Factor::new(-origin[axis], length_unit));
+            o.add_number(Shifted::new(center[axis], length_unit));
+            o.add_number(Shifted::new(-origin[axis], length_unit));
             a.add_times(d, coordinate);
             h.add_times(o, coordinate);
             power.add(o, o);
         }
-        let radius = Factor::new(radius, length_unit);
+        let radius = Shifted::new(radius, length_unit);
         o.clear();
         o.add_number(radius);
         power.add_times(o, radius.negated());
@@ -234,7 +235,7 @@ impl Crossings for InSurds<'_> {
     fn root(&mut self, side: Side) -> Option<(f64, ())> {
         let surd = Surd {
             rational: &self.h,
-            coefficient: Factor { integer: if side == Side::Near { -1 } else { 1 }, places: 0 },
+            coefficient: Shifted { integer: if side == Side::Near { -1 } else { 1 }, places: 0 },
             discriminant: &self.discriminant,
             denominator: &self.a,
             unit: self.length_unit - self.direction_unit,
@@ -260,16 +261,16 @@ impl Crossings for InSurds<'_> {
         let (radius, exponent) = points::normalized(radius);
         let [mut point, mut normal] = [DVec3::ZERO; 2];
         for axis in 0..3 {
-            let d = Factor::new(direction[axis], *direction_unit);
+            let d = Shifted::new(direction[axis], *direction_unit);
             let coefficient = if side == Side::Near { d.negated() } else { d };
             rational.clear();
             rational.add_times(h, d);
-            rational.add_times(a, Factor::new(origin[axis], *length_unit));
+            rational.add_times(a, Shifted::new(origin[axis], *length_unit));
             let unit = *length_unit;
             let surd = Surd { rational, coefficient, discriminant, denominator: a, unit };
             point[axis] = surd.round(*format, scratch) + 0.0;
             let surd = if has_radius {
-                rational.add_times(a, Factor::new(-center[axis], unit));
+                rational.add_times(a, Shifted::new(-center[axis], unit));
                 let unit = unit - exponent;
                 Surd { rational, coefficient, discriminant, denominator: a, unit }
             } else {

@@ -11,7 +11,7 @@ fn number(integer: &Integer) -> Dyadic {
     if integer.is_negative() { -&magnitude } else { magnitude }
 }
 
-fn factor(random: &mut Random) -> Factor {
+fn factor(random: &mut Random) -> Shifted {
     let bits = random.below(65);
     let magnitude = if bits == 0 { 0 } else { random.bits() >> (64 - bits) };
     // Sometimes all ones, whose products carry far.
@@ -19,10 +19,10 @@ fn factor(random: &mut Random) -> Factor {
         if random.below(4) == 0 && bits > 0 { u64::MAX >> (64 - bits) } else { magnitude };
     let places = u32::try_from(random.below(200)).unwrap();
     let integer = i64::try_from(magnitude / 2).unwrap();
-    Factor { integer: if random.below(2) == 0 { integer } else { -integer }, places }
+    Shifted { integer: if random.below(2) == 0 { integer } else { -integer }, places }
 }
 
-fn exactly(Factor { integer, places }: Factor) -> Dyadic {
+fn exactly(Shifted { integer, places }: Shifted) -> Dyadic {
     Dyadic::new(integer, places.into())
 }
 
@@ -109,14 +109,14 @@ fn numbers_are_integers_of_their_units() {
         (f64::from_bits(1), -1074, 1, 0),
         (-1024.0, 10, -1, 0),
     ] {
-        let factor = Factor::new(number, unit);
+        let factor = Shifted::new(number, unit);
         assert_eq!((factor.integer, factor.places), (integer, places), "{number} in 2^{unit}");
         let Float { value, exponent } = factor.to_float();
         assert_eq!(value, f64::from(i32::try_from(integer).unwrap()));
         assert_eq!(exponent, 0);
     }
-    let Factor { integer, places } = Factor::new(f64::MAX, -1074);
+    let Shifted { integer, places } = Shifted::new(f64::MAX, -1074);
     assert_eq!((integer, places), ((1 << 53) - 1, 971 + 1074));
-    let Float { value, exponent } = Factor { integer: -5, places: 77 }.negated().to_float();
+    let Float { value, exponent } = Shifted { integer: -5, places: 77 }.negated().to_float();
     assert_eq!((value, exponent), (5.0, 77));
 }

@@ -3,6 +3,7 @@
 use core::cmp::Ordering;
 
 use crate::arithmetic::exact::Term;
+use crate::arithmetic::integer::Shifted;
 use crate::arithmetic::product::{Product, sign_of_sum};
 use crate::arithmetic::scaling::integer_and_exponent;
 use crate::arithmetic::wide::Wide;
@@ -47,19 +48,8 @@ fn integers<const N: usize>(numbers: [f64; N]) -> Option<([i64; N], i32)> {
 /// A number that is an integer of at most 61 bits in that unit.
 #[inline(always)]
 fn integer_in(number: f64, unit: i32) -> i64 {
-    let (integer, exponent) = integer_and_exponent(number);
-    let shift = exponent - unit;
-    // What is shifted out are zeros.
-    let magnitude = if integer == 0 {
-        0
-    } else if shift < 0 {
-        integer >> -shift
-    } else {
-        integer << shift
-    };
-    #[expect(clippy::cast_possible_wrap, reason = "at most 61 bits")]
-    let magnitude = magnitude as i64;
-    if number < 0.0 { -magnitude } else { magnitude }
+    let Shifted { integer, places } = Shifted::new(number, unit);
+    integer << places
 }
 
 #[expect(clippy::cast_possible_wrap, reason = "at most 64")]

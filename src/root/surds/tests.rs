@@ -235,7 +235,7 @@ fn numbers_next_to_powers_of_two_and_to_midpoints_are_rounded() {
         let [a, c, d, x, y, z] = &mut integers;
         let [mut a, mut c, mut d, x, y, z] = [a, c, d, x, y, z].map(|digits| Integer::new(digits));
         let mut scratch = Scratch { rational: x, square: y, norm: z };
-        let factor = |integer: i64| Factor { integer, places: 0 };
+        let factor = |integer: i64| Shifted { integer, places: 0 };
         c.add_number(factor(denominator));
         a.add_times(&c, factor(sign * eighths));
         a.add_number(factor(-root));
