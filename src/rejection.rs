@@ -32,7 +32,8 @@
 //! 6 u (r² + T) + 3 u r² + 8 u (T + r² / 2) + 8 u T + 4 u T = 13 u r² + 26 u T
 //! ```
 //!
-//! So r² is made larger by `MARGIN`, 16 u, and T by twice that. The rest is far more than all terms of the second order.
+//! So r² is made larger by `MARGIN`, 16 u, and T by twice that. That leaves 3 u r² and 6 u T. All terms of the second order are
+//! together below 1,000 u² (r² + T), which is a 16,000th of u (r² + T).
 //!
 //! The last subtraction is only compared with a constant, which its rounding does not change.
 //!

@@ -51,12 +51,22 @@ impl Setting {
 
     /// The same from afar, where the error of t would move the point: by the closest approach.
     ///
-    /// Its foot, (h / a) d - o, is off by 8 u |o| along d, what h brings besides o's error, a, its reciprocal and a product; and by
-    /// u |o| each for o, across d, and for the product with d: by less than 9.1 u |o|. The square of half the chord's length is off by
-    /// 4 u r |o| for what the foot errs by at right angles to d, and by 5 u r²; that error along d counts as a square, as next to
-    /// nothing. So half the length, s / √a, is off by less than 5 u r |o| over itself, and 4 u r.
+    /// Its foot is (h / a) d - o, and half the chord's length l = s / √a. With r² exact,
     ///
-    /// A root of the plain step has s / √a > 2⁻¹⁶ |o|, and both are off by less than 2⁻³¹ r. The others are those of
+    /// ```text
+    /// h / a       h 3 u without o, a 3 u, its reciprocal, a product        |error| ≤ 8 u |o|, along d
+    /// (h / a) d   a product                                                |error| ≤   u |o|
+    /// o           across d; along d, the error in h cancels it             |error| ≤   u |o|, across d
+    /// the foot    together, √(8² + 1) u |o| + u |o|                        |error| < 9.1 u |o|
+    /// l²          2 r times what the foot is off by across d, 2 u |o|      |error| ≤ 4 u r |o|
+    ///             the foot's difference, its square and r² less that       |error| ≤ 5 u r²
+    /// l           both over l, and as r < |o| / 128                        |error| < 5 u r |o| / l
+    ///             1 / a, a product, the root                               |error| < 4 u r
+    /// ```
+    ///
+    /// What the foot is off by along d counts in l² only by its square, which is next to nothing.
+    ///
+    /// A root of the plain step has l > 2⁻¹⁶ |o|, and both the foot and l are off by less than 2⁻³¹ r. The other roots are those of
     /// [`half_chord_from_afar`], whose bounds include these.
     #[inline(always)]
     fn found_from_afar(&self, chord: &Chord<f64>, rounded: f32) -> Found {

@@ -8,9 +8,9 @@
 //! t d - o     (h d - o a ∓ d √D) / a
 //! ```
 //!
-//! A number of the kind less a float is of the kind again. Where A and B √D nearly cancel, their sum is (A² - B² D) / (A - B √D), with
-//! a dividend, the norm, that is exact, and a divisor in which nothing cancels. So the sign of a number is certain, zero too, and its
-//! size is known within [`ERROR`] of itself. That is all that [`Surd::round`] needs.
+//! Such a number minus a float is such a number, too. Where A and B √D nearly cancel, their sum is computed as
+//! (A² - B² D) / (A - B √D): the dividend, called the norm, is an exact integer, and in the divisor nothing cancels. So it is certain
+//! whether a number is positive, negative or zero, and its size is known within [`ERROR`] of itself. [`Surd::round`] needs no more.
 //!
 //! The integers have as many digits as it takes. Lengths are multiples of one power of two, and directions of another.
 //! Between the smallest and the largest `f32` lie 277 binary places, and 2,098 for `f64`. The widest numbers are those of the normal: A

@@ -2,9 +2,16 @@
 //!
 //! There nearly all of the power o·o - r² cancels, and nothing else does: the discriminant is nearly h². The small root solves
 //! t (2 h - a t) = power, and is taken from that where a |power| < h² / 16, so that s, half the chord, is more than 0.96 |h|, and
-//! 2 s² > 2⁻¹⁶ a m. A root by the bounds of the plain step, but with this power, errs by e < 2⁻³³ of itself. One step of Newton's
-//! leaves, of t: what the power errs by, as a part of itself; of the compensated a and h, 32 v √(a m) / 2 s < 2⁻⁹⁰, and a few v for
-//! the rest; e² a t / 2 s < 2⁻⁷¹ for the curvature; and for the slope, e times its error, 4 u √(a m) / s: < 2⁻⁷⁵.
+//! 2 s² > 2⁻¹⁶ a m. A root by the bounds of the plain step, but with this power, errs by e < 2⁻³³ of itself. It is corrected by one
+//! step of Newton's. What the root errs by after that comes from these, as a part of itself:
+//!
+//! ```text
+//! the power           what it errs by, as a part of itself
+//! the curvature       e² a t / 2 s, where a t < s / 29              < 2⁻⁷¹
+//! the slope           e times what it errs by, 4 u √(a m) / s       < 2⁻⁷⁵
+//! compensated a, h    32 v √(a m) / 2 s                             < 2⁻⁹⁰
+//! the rest            a few v
+//! ```
 
 use glam::DVec3;
 
@@ -71,7 +78,8 @@ pub(super) fn power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
 #[cold]
 #[inline(never)]
 pub(super) fn closest_power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
-    /// Of the rest's terms, which are added up in 14 operations.
+    /// Of the rest's terms. The first of the low sums' errors passes most additions: 8 of the others, that of the smaller terms, and
+    /// that to the low part of the whole, 10 in all. The magnitudes are rounded as often, which is of the second order.
     const REST_ERROR: f64 = 16.0 * U;
     let (power, rest) = Terms::new(exact_o, radius).sum();
     let is_zero = power.hi == 0.0
