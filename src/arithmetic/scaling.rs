@@ -34,8 +34,8 @@ pub(crate) fn scale(x: f64, e: i32) -> f64 {
     if (-1022..=1023).contains(&e) { x * power_of_two(e) } else { scale_far(x, e) }
 }
 
-/// `x` 2ᵉ, which must be below 2⁵³. It is exact from 2⁻⁹⁶⁹ on; if `x` 2ᵉ is smaller, the result is any number of the same sign up to
-/// 2⁻⁹⁶⁹.
+/// `x` 2ᵉ, which must be below 2⁵³. It is exact from 2⁻⁹⁶⁹ on; if `x` 2ᵉ is smaller, the result is any number of the same sign up
+/// to 2⁻⁹⁶⁹.
 ///
 /// The integer of `x` is multiplied, because to multiply a subnormal number takes a hundred times as long.
 #[inline]

@@ -36,8 +36,8 @@ impl Format {
     /// Whether the steps between the first ones and the last are left out. The last step returns the same bits as these, so the
     /// results do not change: there is less code, and rare cases take longer.
     ///
-    /// They are left out where `f64` is software, because there they are slower than integers, and for `f32` in WebAssembly, because
-    /// code is downloaded there.
+    /// They are left out where `f64` is software, because there they are slower than integers, and for `f32` in WebAssembly,
+    /// because code is downloaded there.
     pub(crate) const fn has_few_steps(self) -> bool {
         match self {
             Self::F32 => !HAS_F64 || cfg!(target_family = "wasm"),

@@ -13,11 +13,12 @@
 //! and by the inequality of Cauchy and Schwarz no partial sum exceeds 2⁵³ of these. Only products with low parts are rounded, and
 //! these are 2⁻²⁶ of the whole. (Rump, Ogita and Oishi, *Accurate Floating-Point Summation*, 2008, extract vectors so.)
 //!
-//! The sum of o.high and w.high is exact, too. Both are multiples of the same power of two, which is at least 2⁻²⁶ r. And where a root
-//! is clear of doubt, |o| < 2¹⁶ r: their sum is far below 2⁵³ of these multiples.
+//! The sum of o.high and w.high is exact, too. Both are multiples of the same power of two, which is at least 2⁻²⁶ r. And where a
+//! root is clear of doubt, |o| < 2¹⁶ r: their sum is far below 2⁵³ of these multiples.
 //!
 //! **The error**, with m the larger of o·o and r², and t |d| ≤ 2 √m, to first order. The low part of t is at most 2⁻²⁵ of it, and
-//! each coordinate of d.low at most 2⁻²⁶ |d|, of o.low 2⁻²⁶ √m and of the rest of t d 2⁻²⁶ r. In vectors, with √3 for each of these,
+//! each coordinate of d.low at most 2⁻²⁶ |d|, of o.low 2⁻²⁶ √m and of the rest of t d 2⁻²⁶ r. In vectors, with √3 for each of
+//! these,
 //!
 //! ```text
 //!                                  is at most        and rounded by at most u times that
@@ -35,9 +36,9 @@
 //! So f errs by less than 2⁻⁷¹ r √m, and τ by 2⁻⁷² r √m / s, where s = |w·d| is half the chord. A root is accepted where
 //! (s t)² > 2⁻²⁰ r² m, so that this is at most 2⁻⁶² t. In one coordinate, w errs by less than 2⁻⁷⁴ √m.
 //!
-//! By the bound of the first step with [`CLEAR`], |τ| < 2⁻³²·⁸ t, and s > 2⁻¹⁷ √(a m), so that a t / s < 2¹⁸. So what the plain slope
-//! w·d errs by, 4 u r |d| / s < 2⁻³⁴ of itself, is 2⁻⁶⁶ of t; and the term of third order that is left out, τ (a τ / s)² / 2, is below
-//! 2⁻⁶³·³ of t.
+//! By the bound of the first step with [`CLEAR`], |τ| < 2⁻³²·⁸ t, and s > 2⁻¹⁷ √(a m), so that a t / s < 2¹⁸. So what the plain
+//! slope w·d errs by, 4 u r |d| / s < 2⁻³⁴ of itself, is 2⁻⁶⁶ of t; and the term of third order that is left out, τ (a τ / s)² /
+//! 2, is below 2⁻⁶³·³ of t.
 
 use glam::DVec3;
 

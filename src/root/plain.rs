@@ -36,10 +36,10 @@
 //! a, and the roundings of s, of the sum and of the quotient        ≤  6 u
 //! ```
 //!
-//! The first two make 17.5 u / clear. [`ROOT_ERROR`] has half of u / clear for the others: with a `clear` of 2⁻¹⁶ that is 32,768 u, of
-//! which h takes 1,024 and the roundings 6. The largest term of the second order is that of the square root, which errs by δ / 2 s
-//! and at most (δ / 2 s) (δ / s²) more where the discriminant errs by δ. Because |h| + s ≤ 2 √(a m), s is above clear √(a m) / 2, so
-//! δ / s² < 84 u / clear² < 2⁻¹⁴, and the term takes less than 50 u.
+//! The first two make 17.5 u / clear. [`ROOT_ERROR`] has half of u / clear for the others: with a `clear` of 2⁻¹⁶ that is 32,768
+//! u, of which h takes 1,024 and the roundings 6. The largest term of the second order is that of the square root, which errs by
+//! δ / 2 s and at most (δ / 2 s) (δ / s²) more where the discriminant errs by δ. Because |h| + s ≤ 2 √(a m), s is above clear √(a
+//! m) / 2, so δ / s² < 84 u / clear² < 2⁻¹⁴, and the term takes less than 50 u.
 
 use super::chord::Chord;
 use crate::arithmetic::comparison::{exceeds, is_not_positive, product_exceeds};

@@ -1,7 +1,9 @@
-//! Points and normals, where a careful step finds them: correctly rounded, so that it does not matter which of these steps that is.
+//! Points and normals, where a careful step finds them: correctly rounded, so that it does not matter which of these steps that
+//! is.
 //!
-//! A coordinate of the point is the exact one, rounded to the format. The normal is (t d - o) / r: each coordinate of the dividend is the
-//! exact one, rounded to the digits of the format; the quotient is rounded once more; and below half an ulp of 1 it is zero.
+//! A coordinate of the point is the exact one, rounded to the format. The normal is (t d - o) / r: each coordinate of the
+//! dividend is the exact one, rounded to the digits of the format; the quotient is rounded once more; and below half an ulp of 1
+//! it is zero.
 //!
 //! Both ends of an interval that holds a coordinate are rounded, as those of a root are. Where they differ, the point is
 //! taken from the origin instead of the center ([`Crossing::from_root`]), and then the next step has to look.
@@ -61,8 +63,8 @@ impl Near {
     }
 }
 
-/// p + t d, with t = `root` 2^`exponent` known within a part of itself: each coordinate in units of its own power of two, and known
-/// within a part of its terms.
+/// p + t d, with t = `root` 2^`exponent` known within a part of itself: each coordinate in units of its own power of two, and
+/// known within a part of its terms.
 fn on_the_line(line: &Line, root: Pair, exponent: i32, relative_error: f64) -> (Near, Triple<i32>) {
     /// Of the product and the sum.
     const ERROR: f64 = 10.0 * V;
@@ -199,7 +201,8 @@ fn next_to_zero(
         let (start, center) = (line.origin[axis], line.center[axis]);
         let (low, high) = ([low[axis], low[3 + axis]], [high[axis], high[3 + axis]]);
         if line.direction[axis] == 0.0 {
-            // Across the line, nothing changes along it: the point is the origin there, and the difference is exact or rounded once.
+            // Across the line, nothing changes along it: the point is the origin there, and the difference is exact or rounded
+            // once.
             let difference = two_difference(start, center);
             if format == Format::F32 && difference.lo != 0.0 || !difference.hi.is_finite() {
                 return None;
@@ -225,11 +228,11 @@ fn certain(low: f64, high: f64) -> Option<f64> {
     (low == high).then_some(low)
 }
 
-/// Where a line crosses a sphere, from the center, by the lecture's closest approach: from its foot, at (o × d) × d / a, `along` d / a,
-/// which is half the chord to either side. The radius and d are near 1.
+/// Where a line crosses a sphere, from the center, by the lecture's closest approach: from its foot, at (o × d) × d / a, `along`
+/// d / a, which is half the chord to either side. The radius and d are near 1.
 ///
-/// The moment o × d and a are known within 2⁻⁹⁶ of themselves, 1,024 v, and `along`, a root, within 516 v. A product of a pair and an
-/// `f64` rounds its low part by 3 v, and a sum of two such products by 5 v of their magnitudes. So, in r a,
+/// The moment o × d and a are known within 2⁻⁹⁶ of themselves, 1,024 v, and `along`, a root, within 516 v. A product of a pair
+/// and an `f64` rounds its low part by 3 v, and a sum of two such products by 5 v of their magnitudes. So, in r a,
 ///
 /// ```text
 /// moment × d       1,024 + 3 + 5, by Cauchy and Schwarz of |moment| |d| ≤ r a     |error| ≤ 1,032 v r a
