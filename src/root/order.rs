@@ -6,8 +6,8 @@
 //! H + x + y   with 0,   H = h₁ - h₂ = d·(c₁ - c₂),   x = ∓√D₁,   y = ±√D₂
 //! ```
 //!
-//! In plain `f64` with a bound, that decides nearly all crossings in `f32` that are not equal. What is left is decided by integers:
-//! the sign of x + y by comparing D₁ with D₂; that of H + (x + y) by comparing H² with (x + y)² = D₁ + D₂ + 2 x y; and that, with
+//! In plain `f64` with a bound, that decides nearly all crossings in `f32` that are not equal. What is left is decided by
+//! integers: the sign of x + y by comparing D₁ with D₂; that of H + (x + y) by comparing H² with (x + y)² = D₁ + D₂ + 2 x y; and that, with
 //! K = H² - D₁ - D₂, by comparing K² with 4 D₁ D₂.
 
 use core::cmp::Ordering;

@@ -13,8 +13,8 @@ fn chord(ray: &Ray<DVec3>, sphere: &Sphere<DVec3>) -> ExactChord {
     ExactChord::new([c[0], c[1], c[2], p[0], p[1], p[2], d[0], d[1], d[2], sphere.radius])
 }
 
-/// The order by square roots of as many digits as it takes; equal where the product of the roots' difference and its conjugates is
-/// zero, and the difference is zero in 4,096 digits.
+/// The order by square roots of as many digits as it takes; equal where the product of the roots' difference and its conjugates
+/// is zero, and the difference is zero in 4,096 digits.
 fn exact_order((ray, crossings): &Pair) -> Ordering {
     let [first, second] = [0, 1].map(|i| chord(ray, &crossings[i].0));
     let difference = &first.h - &second.h;
