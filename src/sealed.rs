@@ -68,12 +68,6 @@ pub struct Crate(pub(crate) ());
 /// ```
 ///
 /// ```compile_fail
-/// fn margin<V: eyeray::Vector>() -> V::Scalar {
-///     V::Scalar::MARGIN
-/// }
-/// ```
-///
-/// ```compile_fail
 /// fn margin<S: eyeray::Scalar>() -> S {
 ///     S::MARGIN
 /// }
