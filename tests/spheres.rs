@@ -78,7 +78,7 @@ fn keeps_what_it_is_given() {
     assert!(more.is_empty() && more.nearest(&ray, 0.0..f32::INFINITY).is_none());
     more.push(Sphere::new(Vec3::X, 0.5));
     assert_same_as_slice(&[Sphere::new(Vec3::X, 0.5)], &more, &ray, &(0.0..f32::INFINITY));
-    assert_eq!(Spheres::default().len(), 0);
+    assert_eq!(Spheres::<Vec3>::default().len(), 0);
 }
 
 /// A sphere of every length of a row.
@@ -129,7 +129,7 @@ fn is_a_collection() {
         assert_eq!(format!("{bvh:?}"), format!("{:?}", row(count)));
         assert_eq!(format!("{:#?}", bvh.clone()), format!("{:#?}", row(count)));
     }
-    assert!(SphereBvh::default().is_empty());
+    assert!(SphereBvh::<Vec3>::default().is_empty());
 }
 
 /// The hierarchy handles spheres that no ray can hit, and more large spheres than it keeps apart.
