@@ -1,6 +1,6 @@
-//! Early rejection: a test in a few operations, in the scene's own precision, of whether a ray misses a sphere. A sphere that the ray
-//! misses may pass the test; a sphere that it hits is never rejected. The collections' filter (`spheres::filter`) is the same test in
-//! `f32`, over many spheres at a time and of numbers that are rounded before: one derivation is for both.
+//! Early rejection: a test in a few operations, in the scene's own precision, of whether a ray misses a sphere. A sphere that the
+//! ray misses may pass the test; a sphere that it hits is never rejected. The filter of the collections (`spheres::filter`) is the same test
+//! in `f32`, over many spheres at a time, of numbers that have been rounded before: one derivation is for both.
 //!
 //! A hit with t in (0, end) is a point of the segment from the ray's origin to `end`. So a sphere is rejected where that segment
 //! stays clear of its ball: where the point of the segment nearest to the center, at t = m, is farther from it than the radius.
@@ -25,40 +25,40 @@
 //! a end      a 3, a product                             is off by at most  4 u a end, and so T by 4 u T
 //! ```
 //!
-//! Now let the ray hit: o·o ≤ r² + T. With the distance q = m |d| to the point at m, that to the closest approach, h / |d| ≥ q, and
-//! that of the center from the line, at most r: |o| |d| m = q √((h / |d|)² + r²) ≤ h m + r² / 2 ≤ T + r² / 2. Together the errors
-//! are at most
+//! Now let the ray hit: o·o ≤ r² + T. With the distance q = m |d| to the point at m, that to the closest approach, h / |d| ≥ q,
+//! and that of the center from the line, at most r: |o| |d| m = q √((h / |d|)² + r²) ≤ h m + r² / 2 ≤ T + r² / 2. Together the
+//! errors are at most
 //!
 //! ```text
 //! 6 u (r² + T) + 3 u r² + 8 u (T + r² / 2) + 8 u T + 4 u T = 13 u r² + 26 u T
 //! ```
 //!
-//! **Rounded numbers.** In the filter, c and p are coordinates relative to a center of the collection, and d is that of any precision:
-//! rounded to `f32`, c is off by at most u |c|, p by 1.25 u |p|, and d by u |d|. The segment of the rounded numbers therefore passes
-//! the rounded center within r + u |c| + 1.25 u |p| + u t |d|, where the ray hits at t. There t |d| ≤ |o| + r, and |p| ≤ |c| + |o|:
+//! **Rounded numbers.** In the filter, c and p are relative to a center of the collection, and d is of any precision. Rounded to
+//! `f32`, c is off by at most u |c|, p by 1.25 u |p|, and d by u |d|. So where the ray hits at t, the rounded ray passes the
+//! rounded center within r + u |c| + 1.25 u |p| + u t |d|. There t |d| ≤ |o| + r, and |p| ≤ |c| + |o|:
 //!
 //! ```text
 //! r (1 + u) + 2.25 u |c| + 2.25 u |o| ≤ R (1 + u) + 2.25 u |o|,   R = r + 3 u |c|
 //! ```
 //!
 //! With R for the radius, the center counts no more. The square of the whole is at most R² + 2 u R² + 4.5 u R |o|, and with
-//! 2 R |o| ≤ R² + o·o ≤ 2 R² + T, at most R² (1 + 6.5 u) + 2.25 u T. With the 13 u and 26 u of above: 19.5 u R² + 28.25 u T.
+//! 2 R |o| ≤ R² + o·o ≤ 2 R² + T, at most R² (1 + 6.5 u) + 2.25 u T. With 13 u and 26 u, that makes 19.5 u R² + 28.25 u T.
 //!
-//! So r² is made larger by `MARGIN`, 24 u, of which its rounding leaves 23 u, and T by twice that. The rest is far more than all
-//! terms of the second order.
+//! So r² is made larger by `MARGIN`, 24 u, and T by twice that. That leaves 4.5 u r² and 19.75 u T. All terms of the second order
+//! are together below 1,000 u² (r² + T), which is a 16,000th of u (r² + T).
 //!
 //! The last subtraction is only compared with a constant, which its rounding does not change.
 //!
 //! **Underflow.** For directions of length 2⁻³⁰ to 2⁶⁰ (in `f64`, 2⁻²⁵⁰ to 2⁵⁰⁰), a and 1 / a are normal numbers. A product that
 //! underflows has an additional error of up to 2⁻¹⁵⁰ (2⁻¹⁰⁷⁵). In h and in a end, this error is multiplied by 2 |o| / |d|, and in
-//! s / a by 2 |o| |d|: together less than 2⁻⁸⁸ |o| (2⁻⁵⁷³ |o|). If |o| < 2⁻¹² (2⁻⁴⁰⁰), this and the errors of the squares are less
-//! than `LEAST`, which the result has to exceed. Otherwise they are far below u o·o. For all other directions, 1 / a is set to NaN,
-//! so that nothing is rejected.
+//! s / a by 2 |o| |d|: together less than 2⁻⁸⁸ |o| (2⁻⁵⁷³ |o|). If |o| < 2⁻¹² (2⁻⁴⁰⁰), this and the errors of the squares are
+//! less than `LEAST`, which the result has to exceed. Otherwise they are far below u o·o. For all other directions, 1 / a is set
+//! to NaN, so that nothing is rejected.
 //!
-//! **Overflow and NaN.** T is never negative where `end` is positive. So overflow in h or T makes the result -∞ or NaN, and so does an
-//! infinite radius. Overflow in o·o makes it +∞ or NaN. Only a finite result rejects. Where `end` is not positive there is no hit,
-//! and either answer is right. What is not rejected so is looked at again: a sphere with a NaN, an infinity or a negative radius,
-//! which nothing hits, is rejected at last.
+//! **Overflow and NaN.** T is never negative where `end` is positive. So overflow in h or T makes the result -∞ or NaN, and so
+//! does an infinite radius. Overflow in o·o makes it +∞ or NaN. Only a finite result rejects. Where `end` is not positive there
+//! is no hit, and either answer is right. What is not rejected so is looked at again: a sphere with a NaN, an infinity or a
+//! negative radius, which nothing hits, is rejected at last.
 
 use glam::{DVec3, Mat4, Vec3, Vec4};
 
