@@ -1,6 +1,6 @@
 //! Early rejection: a test in a few operations, in the scene's own precision, of whether a ray misses a sphere. A sphere that the
-//! ray misses may pass the test; a sphere that it hits is never rejected. The filter of the collections (`spheres::filter`) is the same test
-//! in `f32`, over many spheres at a time, of numbers that have been rounded before: one derivation is for both.
+//! ray misses may pass the test; a sphere that it hits is never rejected. The filter of the collections (`spheres::filter`) is
+//! the same test in `f32`, over many spheres at a time, of numbers that have been rounded before: one derivation is for both.
 //!
 //! A hit with t in (0, end) is a point of the segment from the ray's origin to `end`. So a sphere is rejected where that segment
 //! stays clear of its ball: where the point of the segment nearest to the center, at t = m, is farther from it than the radius.

@@ -1,5 +1,5 @@
-//! The filter: which of 16 spheres a ray may meet, in `f32` and many lanes at a time, in either precision. It may let a sphere pass
-//! that the ray misses; it never drops one that it hits.
+//! The filter: which of 16 spheres a ray may meet, in `f32` and many lanes at a time, in either precision. It may let a sphere
+//! pass that the ray misses; it never drops one that it hits.
 //!
 //! It is the test of [`rejection`](crate::rejection), which derives it and its margins: with o = c - p, h = d·o, a = d·d, and
 //! s = h, but at least a `start` and at most a `end`, a sphere is dropped where
@@ -8,22 +8,24 @@
 //! |m d - o|² - r² = (o·o - r²) - T > 0,   T = 2 h m - a m² = s (2 h - s) / a
 //! ```
 //!
-//! For the whole line s = h and T = h² / a, which is quicker: it goes first where there are many spheres. For the half-line there is no
-//! end: that is enough where there are few.
+//! For the whole line s = h and T = h² / a, which is quicker: it goes first where there are many spheres. For the half-line there
+//! is no end: that is enough where there are few.
 //!
-//! **Coordinates** are relative to a center of the collection, and rounded ([`local`](super::local)). What that makes of the center of a
-//! sphere and of the ray's origin, r has added to it: [`COORDINATE_MARGIN`], 3 u, of c. So the factor of T is in what is kept of a
-//! ray and all else in what is kept of each sphere: the loop pays nothing for the bound, and it holds wherever a sphere is.
+//! **Coordinates** are relative to a center of the collection, and rounded ([`local`](super::local)). What that makes of the
+//! center of a sphere and of the ray's origin, r has added to it: [`COORDINATE_MARGIN`], 3 u, of c. So the factor of T is in what
+//! is kept of a ray and all else in what is kept of each sphere: the loop pays nothing for the bound, and it holds wherever a
+//! sphere is.
 //!
-//! **A moved origin.** Where a ray begins anew far ahead of its origin, `start` is below zero. Then a sphere before the new origin has
-//! h < 0 and m between h / a and 0; with d turned around, that is the case of the derivation.
+//! **A moved origin.** Where a ray begins anew far ahead of its origin, `start` is below zero. Then a sphere before the new
+//! origin has h < 0 and m between h / a and 0; with d turned around, that is the case of the derivation.
 //!
 //! **The sign.** So the result is below zero for every sphere that is hit, and its sign alone says which spheres pass. It is
 //! NaN only where `end` is NaN or below zero: then nothing is hit, and any answer will do.
 //!
 //! **Overflow and underflow.** Lengths up to [`LARGEST`] and directions of 2⁻³⁰ to 2⁶⁰ keep every intermediate result finite:
 //! |o| < 2⁶², |h| < 2¹²², m < 2⁹². (Only a `start` and a `end` may be infinite, and then they limit nothing.) A product that
-//! underflows is off by 2⁻¹⁵⁰ more, which factors of 2 m, 2 |h| and 2 |o| / |d|, together below 2⁶² |o|, bring to 2⁻⁸⁸ |o|. Either
+//! underflows is off by 2⁻¹⁵⁰ more, which factors of 2 m, 2 |h| and 2 |o| / |d|, together below 2⁶² |o|, bring to 2⁻⁸⁸ |o|.
+//! Either
 //! |o| < 2⁻¹² and that is below `LEAST`, which each r² has added to it, or it is far below u o·o. Larger spheres pass always, and
 //! other rays ask all.
 
@@ -194,8 +196,8 @@ pub(crate) struct Segment {
 }
 
 impl Segment {
-    /// Whether the filters can compute with a ray of that origin, no farther from the center than the root of `farthest_squared`, and
-    /// of that direction: of a NaN, they cannot.
+    /// Whether the filters can compute with a ray of that origin, no farther from the center than the root of `farthest_squared`,
+    /// and of that direction: of a NaN, they cannot.
     #[inline(always)]
     pub(crate) fn allows(origin: Vec3, direction: Vec3, farthest_squared: f32) -> bool {
         let a = direction.length_squared();

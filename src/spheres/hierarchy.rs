@@ -22,29 +22,30 @@ use super::Spheres;
 use super::lanes::Lanes;
 use crate::{Hit, Hittable, Ray, Sphere, Vector};
 
-/// A collection of many spheres in `f32`, which finds the nearest hit with a bounding volume hierarchy (BVH).
+/// A collection of many spheres, which finds the nearest hit with a bounding volume hierarchy (BVH).
 ///
-/// It returns what [`nearest`](crate::nearest) returns for a slice of the same spheres, bit for bit: the same hit and the same index,
-/// the lowest among equal distances. It skips groups of spheres whose box the ray does not enter, or enters beyond the nearest hit
-/// so far. The error of these tests is bounded, so they never skip a sphere that is hit.
+/// It returns what [`nearest`](crate::nearest) returns for a slice of the same spheres, bit for bit: the same hit and the same
+/// index, the lowest among equal distances. It skips groups of spheres whose box the ray does not enter, or enters beyond the
+/// nearest hit so far. The error of these tests is bounded, so they never skip a sphere that is hit.
 ///
-/// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost nothing. Up to 16 that are
-/// large compared to the extent of the others, such as the ground, are kept apart and tested with each ray. A sphere with a coordinate or a
-/// radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin is farther than 2⁶⁰ from the
-/// world's, or whose direction is longer than that or shorter than 2⁻³⁰.
+/// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost nothing. Up to 16 that
+/// are large compared to the extent of the others, such as the ground, are kept apart and tested with each ray. Where the spheres
+/// are does not matter: far from the world's origin, a few far from all others, or in clusters far apart. A sphere with a
+/// coordinate or a radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin is farther
+/// than 2⁶⁰ from the world's, or whose direction is longer than that or shorter than 2⁻³⁰.
 ///
 /// # When to use it
 ///
-/// For more than some hundred spheres that stay as they are. They cannot be changed, only collected again, which takes less than half
-/// a second for a million. It takes 26 to 32 bytes a sphere. For few spheres it is a [`Spheres`], which can also be changed one by one.
-/// (In the repository, `cargo bench --manifest-path benches/peers/Cargo.toml --bench many_spheres` measures it beside other
-/// libraries.)
+/// For more than some hundred spheres that stay as they are. They cannot be changed, only collected again, which takes less than
+/// half a second for a million. It takes 26 to 32 bytes a sphere, and at most 56 in `f64`. For few spheres it is a [`Spheres`],
+/// which can also be changed one by one. (In the repository, `cargo bench --manifest-path benches/peers/Cargo.toml --bench
+/// many_spheres` measures it beside other libraries.)
 ///
 /// # How
 ///
 /// Nodes are 16 boxes wide, and leaves 16 spheres, as wide as the widest vectors (Wald, Benthin and Boulos, *Getting Rid of
-/// Packets*, 2008). A surface-area heuristic sorts the spheres into them, and prefers to fill them. The instructions are those
-/// that [`Spheres`] uses.
+/// Packets*, 2008). Their boxes are in `f32` in both precisions, around centers of their own. A surface-area heuristic sorts the
+/// spheres into them, and prefers to fill them. The instructions are those that [`Spheres`] uses.
 ///
 /// ```
 /// use eyeray::{Ray, Sphere, SphereBvh};
@@ -76,7 +77,8 @@ enum Shape<V: Vector> {
 struct Tree<V: Vector> {
     leaves: Vec<Leaf<V::Scalar>>,
     nodes: Vec<Boxes>,
-    /// The whole tree, where a ray begins, and the parts of it that have coordinates of their own. There are none without spheres.
+    /// The whole tree, where a ray begins, and the parts of it that have coordinates of their own. There are none without
+    /// spheres.
     regions: Vec<Region<V>>,
     /// The spheres whose boxes would make those of all others useless, and what cannot be computed with, by ascending index.
     apart: Spheres<V>,

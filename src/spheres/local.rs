@@ -1,11 +1,11 @@
 //! Coordinates in `f32` around a center, for scenes in either precision that are anywhere, and for rays that come from anywhere.
 //!
-//! Boxes and filters compute in `f32`, and their errors are a part of the largest number that they meet. So the coordinates are those
-//! relative to a center among the spheres, and a ray that begins far away begins anew not far before them: its origin is moved along
-//! it, in `f64`, and t counts from there.
+//! Boxes and filters compute in `f32`, and their errors are a part of the largest number that they meet. So the coordinates are
+//! those relative to a center among the spheres, and a ray that begins far away begins anew not far before them: its origin is
+//! moved along it, in `f64`, and t counts from there.
 //!
-//! **The error of a moved origin.** With u = 2⁻²⁴ and v = 2⁻⁵³, O for the origin relative to the center, and D for how far before its
-//! closest approach to the center the ray begins anew, at p = O + t d:
+//! **The error of a moved origin.** With u = 2⁻²⁴ and v = 2⁻⁵³, O for the origin relative to the center, and D for how far before
+//! its closest approach to the center the ray begins anew, at p = O + t d:
 //!
 //! ```text
 //! O     a difference                is off by at most  v |O|

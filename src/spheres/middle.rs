@@ -1,7 +1,7 @@
 //! Where most spheres of a collection are, whatever a few of them are.
 //!
-//! Answers do not depend on it, only how many spheres the filter lets pass. So a sample will do, and medians, which no stray sphere
-//! moves.
+//! Answers do not depend on it, only how many spheres the filter lets pass. So a sample will do, and medians, which no stray
+//! sphere moves.
 
 use arrayvec::ArrayVec;
 
@@ -13,8 +13,8 @@ use crate::{Sphere, Vector};
 /// How many spheres a sample has at most.
 const SAMPLE: usize = 64;
 
-/// From how many extents on a ray begins anew closer to the spheres. Up to there, what the filter's margin is of the distance is less
-/// than a fiftieth of the extent.
+/// From how many extents on a ray begins anew closer to the spheres. Up to there, what the filter's margin is of the distance is
+/// less than a fiftieth of the extent.
 const FAR: f32 = 16.0;
 
 /// A center in the middle of most spheres, and how far they are from it.

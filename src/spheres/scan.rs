@@ -17,30 +17,31 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// How many blocks have a bit for each sphere in one word.
 const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 
-/// A collection of few or changing spheres in `f32`, which finds the nearest hit by testing many spheres at a time.
+/// A collection of few or changing spheres, which finds the nearest hit by testing many spheres at a time.
 ///
 /// It returns what [`nearest`] returns for a slice of the same spheres, bit for bit: the same hit and the same index, the lowest
-/// among equal distances. It takes less time, because most spheres are dropped in single precision, many at a time. The error of this
-/// test is bounded, so it never drops a sphere that is hit; the spheres that pass it are intersected exactly.
+/// among equal distances. It takes less time, because most spheres are dropped in single precision, many at a time, in both
+/// precisions. The error of this test is bounded, so it never drops a sphere that is hit; the spheres that pass it are
+/// intersected exactly.
 ///
-/// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost no more than others. A
-/// sphere with a coordinate or a radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin is
-/// farther than 2⁶⁰ from the world's, or whose direction is longer than that or shorter than 2⁻³⁰.
+/// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost no more than others.
+/// Where the spheres are does not matter, nor from how far away a ray comes. Only a sphere with a radius beyond 2⁶⁰, or farther
+/// than that from most others, is always intersected exactly, and so are all spheres with a ray whose origin is farther than 2⁶⁰
+/// from them, or whose direction is longer than that or shorter than 2⁻³⁰.
 ///
 /// # When to use it
 ///
-/// For two spheres or more, up to some hundred, or for any number that changes: spheres can be added, changed and removed one by one.
-/// The time of a query is proportional to their number. For more than some hundred that stay as they are,
-/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. (`cargo bench --bench spheres` measures 1
-/// to 65,536.)
+/// For two spheres or more, up to some hundred, or for any number that changes: spheres can be added, changed and removed one by
+/// one. The time of a query is proportional to their number. For more than some hundred that stay as they are,
+/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. (`cargo bench --bench spheres` measures 1 to 65,536.)
 ///
 /// # Instructions
 ///
-/// On x86-64 with the feature `std`, AVX-512 (from Rust 1.89 on) or else AVX2 and FMA are used if the machine has them. Otherwise,
-/// the instructions are those that the crate is compiled for: SSE2 on x86-64, NEON on aarch64, in WebAssembly 128-bit SIMD with
-/// `-C target-feature=+simd128`, and more with `-C target-cpu`. The results are the same. In WebAssembly, in Node.js, 1,024 spheres
-/// take 0.26 times as long as a loop over the textbook's formula, 46 take 0.4 times, and 8 as long (`tests/targets/run costs`, in
-/// the repository).
+/// On x86-64 with the feature `std`, AVX-512 (from Rust 1.89 on) or else AVX2 and FMA are used if the machine has them.
+/// Otherwise, the instructions are those that the crate is compiled for: SSE2 on x86-64, NEON on aarch64, in WebAssembly 128-bit
+/// SIMD with `-C target-feature=+simd128`, and more with `-C target-cpu`. The results are the same. In WebAssembly, in Node.js,
+/// 1,024 spheres take 0.26 times as long as a loop over the textbook's formula, 46 take 0.4 times, and 8 as long
+/// (`tests/targets/run costs`, in the repository).
 ///
 /// ```
 /// use eyeray::{Ray, Sphere, Spheres};

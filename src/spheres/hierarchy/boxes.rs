@@ -3,21 +3,23 @@
 //! A box is passed through between the last near plane and the first far plane of its three slabs (Kay and Kajiya). It may be
 //! kept though the ray misses it; it is never dropped if a sphere in it is hit.
 //!
-//! Coordinates are relative to the center of a region ([`region`](super::region)). Let p and d be a component of the ray's origin and
-//! direction, c the coordinate of a plane, L the largest coordinate of all boxes or of the origin, and D the largest component of the
-//! direction, by magnitude. A hit at t is a point of the box: it is beyond each near plane and before each far one, so for d > 0
+//! Coordinates are relative to the center of a region ([`region`](super::region)). Let p and d be a component of the ray's origin
+//! and direction, c the coordinate of a plane, L the largest coordinate of all boxes or of the origin, and D the largest
+//! component of the direction, by magnitude. A hit at t is a point of the box: it is beyond each near plane and before each far
+//! one, so for d > 0
 //!
 //! ```text
 //! (c_near - p) / d ≤ t ≤ (c_far - p) / d
 //! ```
 //!
-//! **Rounded numbers.** The planes are rounded outwards. The origin is rounded to `f32`, by at most u L with u = 2⁻²⁴, and may have
-//! been moved, by u L / 8 ([`local`](crate::spheres::local): u / 16 of its distance, which is at most √3 L). A component of the direction
-//! is rounded by u d, and so the coordinate of the point at t by u t d. How far the hit is from the origin along that axis, t d, is
-//! at most 2 L. Together that moves the point by 3.13 u L, and t by 3.13 u L / d.
+//! **Rounded numbers.** The planes are rounded outwards. The origin is rounded to `f32`, by at most u L with u = 2⁻²⁴, and may
+//! have been moved, by u L / 8 ([`local`](crate::spheres::local): u / 16 of its distance, which is at most √3 L). A component of
+//! the direction is rounded by u d, and so the coordinate of the point at t by u t d. How far the hit is from the origin along
+//! that axis, t d, is at most 2 L. Together that moves the point by 3.13 u L, and t by 3.13 u L / d.
 //!
-//! **Components near zero.** A component below 2 u D is replaced by that, of the same sign: no reciprocal is infinite, and no product
-//! with it NaN. The coordinate of the point at t changes by at most 2 u t D, and t D is at most 2 L: so t moves by 4 u L / d.
+//! **Components near zero.** A component below 2 u D is replaced by that, of the same sign: no reciprocal is infinite, and no
+//! product with it NaN. The coordinate of the point at t changes by at most 2 u t D, and t D is at most 2 L: so t moves by 4 u L
+//! / d.
 //!
 //! **The error.** With r for 1 / d, and every operation rounded (a fused multiply-add rounds less),
 //!
@@ -28,11 +30,11 @@
 //! c r + that    a sum                                            2 u L r
 //! ```
 //!
-//! Together 7 u L r, 11 u L r with what was replaced, and 14.13 u L r with what was rounded before. The reach, [`MARGIN`] L r,
-//! 16 u L r, is subtracted from where the ray meets the near planes and added for the far ones, once a ray. It must not be relative to c - p: in a box's face that is zero.
-//! What is left of it, more than u L r, is far more than all terms of the second order, and than what underflows: L counts as at least
-//! [`LEAST_COORDINATE`], 2⁻⁶⁰, so that u L r ≥ 2⁻¹⁴⁴ for directions up to 2⁶⁰, and a product that underflows is off by 2⁻¹⁵⁰.
-//! Nothing overflows: r ≤ 2⁵⁴ for directions from 2⁻³⁰ on, and L ≤ 2⁶¹.
+//! Together 7 u L r, 11 u L r with what was replaced, and 14.13 u L r with what was rounded before. The reach, [`MARGIN`] L r, 16
+//! u L r, is subtracted from where the ray meets the near planes and added for the far ones, once a ray. It must not be relative
+//! to c - p: in a box's face that is zero. What is left of it, more than u L r, is far more than all terms of the second order,
+//! and than what underflows: L counts as at least [`LEAST_COORDINATE`], 2⁻⁶⁰, so that u L r ≥ 2⁻¹⁴⁴ for directions up to 2⁶⁰, and
+//! a product that underflows is off by 2⁻¹⁵⁰. Nothing overflows: r ≤ 2⁵⁴ for directions from 2⁻³⁰ on, and L ≤ 2⁶¹.
 
 use glam::{Vec3, Vec4};
 

@@ -19,7 +19,8 @@ use crate::{Scalar, Sphere, Vector};
 /// Up to so many spheres, as a multiple of the numbers in a vector, a scan takes no longer than the hierarchy.
 const FEW: usize = 20;
 
-/// How many spheres a hierarchy has at most: the places of all, with the lanes of leaves that are not full, are numbers of 32 bits.
+/// How many spheres a hierarchy has at most: the places of all, with the lanes of leaves that are not full, are numbers of 32
+/// bits.
 pub(super) const MOST: usize = 1 << 31;
 
 /// How many large spheres are kept apart at most: one block for the scan to filter.
@@ -97,8 +98,8 @@ pub(super) fn number(number: usize) -> u32 {
     number as u32
 }
 
-/// The leaf of up to 16 of the spheres, and the box around it. In each lane that is left is a point, which hardly a ray comes near,
-/// with an index that tells it.
+/// The leaf of up to 16 of the spheres, and the box around it. In each lane that is left is a point, which hardly a ray comes
+/// near, with an index that tells it.
 pub(super) fn leaf<V: Vector>(
     members: &[Member],
     spheres: &[Sphere<V>],

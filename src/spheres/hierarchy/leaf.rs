@@ -28,14 +28,15 @@
 //! r + 9 u |o| + u |o| + u m |d| + u r = r (1 + 11 u) + 11 u m |d|
 //! ```
 //!
-//! **Rounded numbers.** Spheres are in the coordinates of the world and in the scene's own precision, and so is p. Only o is `f32`. The
-//! direction may be rounded to `f32`, which moves the point at t by u t |d| ≤ u (r + m |d|); r too, by u r; and where p has been
-//! moved along the ray, it is off by what [`Tube::moved`] adds to every radius. That makes r (1 + 13 u) + 12 u m |d|.
+//! **Rounded numbers.** Spheres are in the coordinates of the world and in the scene's own precision, and so is p. Only o is
+//! `f32`. The direction may be rounded to `f32`, which moves the point at t by u t |d| ≤ u (r + m |d|); r too, by u r; and where
+//! p has been moved along the ray, it is off by what [`Tube::moved`] adds to every radius. That makes r (1 + 13 u) + 12 u m |d|.
 //!
 //! |w|² - R² is the sum of x² + y², off by 2 u (x² + y²), and of z² - R², off by u z², u R² and the rounding of the difference,
-//! u R²; to round the sum of the two changes no sign. That is at most 4 u R², or 2 u of R. R takes two more roundings: 4 u in all.
-//! So r is made larger by [`RADIUS_MARGIN`], 20 u, and then by [`DISTANCE_MARGIN`] m |d|, 14 u. What is left of either, more than
-//! u r and u m |d|, is far more than all terms of the second order. The length |d| is taken for |x| + |y| + |z|, which is no smaller.
+//! u R²; to round the sum of the two changes no sign. That is at most 4 u R², or 2 u of R. R takes two more roundings: 4 u in
+//! all. So r is made larger by [`RADIUS_MARGIN`], 20 u, and then by [`DISTANCE_MARGIN`] m |d|, 14 u. What is left of either, more
+//! than u r and u m |d|, is far more than all terms of the second order. The length |d| is taken for |x| + |y| + |z|, which is no
+//! smaller.
 //!
 //! **Overflow and underflow.** Lengths up to 2⁶⁰ and directions of 2⁻³⁰ to 2⁶⁰ keep every intermediate result finite: |o| < 2⁶²,
 //! m < 2⁹². A product that underflows is off by 2⁻¹⁵⁰: in m d that makes 2⁻⁸⁸, and [`LEAST`], 2⁻⁶⁰, which each R has added to
@@ -210,8 +211,8 @@ impl<S: Scalar> Tube<S> {
 
     /// Of a ray that begins anew at `t`.
     ///
-    /// With v = 2⁻⁵³, the product is off by v t |d|, and the sum by v of itself. Twice that is added to every radius, with the sums of
-    /// the coordinates for the lengths.
+    /// With v = 2⁻⁵³, the product is off by v t |d|, and the sum by v of itself. Twice that is added to every radius, with the
+    /// sums of the coordinates for the lengths.
     pub(super) fn moved<V: Vector<Scalar = S>>(ray: &Ray<V>, t: f64) -> Self {
         let way = ray.direction.to_f64() * t;
         let origin = ray.origin.to_f64() + way;

@@ -1,20 +1,20 @@
 //! A part of the tree with a coordinate system of its own.
 //!
 //! The errors of the boxes are a part of the largest coordinate of all. So that a sphere far away does not make all others' boxes
-//! useless, and so that spheres may be anywhere, a subtree whose spheres are close together, as seen from the center of the region
-//! that it is in, is a region: the coordinates of its boxes are relative to a center of its own, up to its extent. The whole tree is
-//! one, and scenes have no others unless a few spheres are far from the rest.
+//! useless, and so that spheres may be anywhere, a subtree whose spheres are close together, as seen from the center of the
+//! region that it is in, is a region: the coordinates of its boxes are relative to a center of its own, up to its extent. The
+//! whole tree is one, and scenes have no others unless a few spheres are far from the rest.
 //!
-//! A ray that enters a region from afar begins anew, not far before its closest approach to the center ([`local`]), and t counts from
-//! there: so that the coordinates of the origin are a few extents at most, too.
+//! A ray that enters a region from afar begins anew, not far before its closest approach to the center ([`local`]), and t counts
+//! from there: so that the coordinates of the origin are a few extents at most, too.
 //!
-//! **What is missed.** All boxes of a region are in the ball of √3 extents around its center. The closest approach is computed in `f64`,
-//! with v = 2⁻⁵³: h is off by 4 v |O| |d|, and so the point by 8 v |O| with the division, the product and the sum. So it is missed where
-//! the distance, with b for 2⁻⁵⁰ |O|, is more than √3 extents + b. The square of that is below 3.1 extents² + 33 b², because
-//! 2 √3 b ≤ 0.03 · 3 + 34 b² / 3; [`OF_DISTANCE`] is more.
+//! **What is missed.** All boxes of a region are in the ball of √3 extents around its center. The closest approach is computed in
+//! `f64`, with v = 2⁻⁵³: h is off by 4 v |O| |d|, and so the point by 8 v |O| with the division, the product and the sum. So it
+//! is missed where the distance, with b for 2⁻⁵⁰ |O|, is more than √3 extents + b. The square of that is below 3.1 extents² + 33
+//! b², because 2 √3 b ≤ 0.03 · 3 + 34 b² / 3; [`OF_DISTANCE`] is more.
 //!
-//! A ray that does not miss it begins anew at least 4 extents / √3 > √3 extents before its closest approach: no hit in the region is
-//! lost behind the new origin.
+//! A ray that does not miss it begins anew at least 4 extents / √3 > √3 extents before its closest approach: no hit in the region
+//! is lost behind the new origin.
 //!
 //! [`local`]: crate::spheres::local
 
@@ -25,7 +25,8 @@ use super::leaf::Tube;
 use crate::spheres::local::{Approach, narrow};
 use crate::{Ray, Vector};
 
-/// From how many extents on a ray comes from afar. Up to there, the errors of the boxes are less than a ten-thousandth of the extent.
+/// From how many extents on a ray comes from afar. Up to there, the errors of the boxes are less than a ten-thousandth of the
+/// extent.
 const FAR: f32 = 64.0;
 
 /// The square of what the closest approach may be off by, in that of the origin's distance.

@@ -1,18 +1,18 @@
 //! Splits spheres in two, and these again, until 16 are left: a binary tree.
 //!
 //! A surface-area heuristic tells where (Goldsmith and Salmon, *Automatic Creation of Object Hierarchies for Ray Tracing*, 1987):
-//! where the cost is least, which is the sum over both halves of the area of the box around one times the number of leaves that it
-//! needs. Leaves are counted whole, so halves that fill them are preferred. The candidates are the limits of a few bins on each axis
-//! (Wald, *On fast Construction of SAH-based Bounding Volume Hierarchies*, 2007).
+//! where the cost is least, which is the sum over both halves of the area of the box around one times the number of leaves that
+//! it needs. Leaves are counted whole, so halves that fill them are preferred. The candidates are the limits of a few bins on
+//! each axis (Wald, *On fast Construction of SAH-based Bounding Volume Hierarchies*, 2007).
 //!
-//! The median is taken where it costs hardly more, rounded so that one half is full leaves in full nodes: then the tree takes less
-//! memory, and more of it stays in the caches.
+//! The median is taken where it costs hardly more, rounded so that one half is full leaves in full nodes: then the tree takes
+//! less memory, and more of it stays in the caches.
 //!
-//! Where a few spheres are far from the others, bins of equal width hold nearly all in one or two. Then those two are divided into
-//! bins again and again, on each axis, and one more candidate is to split what is in them all from the strays.
+//! Where a few spheres are far from the others, bins of equal width hold nearly all in one or two. Then those two are divided
+//! into bins again and again, on each axis, and one more candidate is to split what is in them all from the strays.
 //!
-//! Centers are in `f32`, relative to that of their region ([`region`](super::region)). Where what is left is small beside the region,
-//! it becomes one of its own.
+//! Centers are in `f32`, relative to that of their region ([`region`](super::region)). Where what is left is small beside the
+//! region, it becomes one of its own.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -428,8 +428,8 @@ fn zoom(sample: impl Iterator<Item = f32> + Clone, mut low: f32, mut high: f32) 
     }
 }
 
-/// Splits the members whose centers are in a box from the others, if that costs less, into so many leaves at most. Returns how many
-/// members are before.
+/// Splits the members whose centers are in a box from the others, if that costs less, into so many leaves at most. Returns how
+/// many members are before.
 fn split_off_strays(
     members: &mut [Member],
     bulk: Around,

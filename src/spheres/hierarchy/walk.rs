@@ -1,7 +1,7 @@
 //! The way of a ray through the hierarchy: the nearest box first, and none that begins beyond the nearest hit so far.
 //!
-//! A region inside of another ([`region`](super::region)) is walked through before what waits outside. On the way, `t` counts from
-//! where the ray begins anew for the region: entries and the end that they are compared with.
+//! A region inside of another ([`region`](super::region)) is walked through before what waits outside. On the way, `t` counts
+//! from where the ray begins anew for the region: entries and the end that they are compared with.
 
 use core::ops::Range;
 

@@ -1,8 +1,8 @@
 //! Makes nodes of up to 16 boxes, and leaves, of a binary tree.
 //!
-//! Those splits become nodes for which the sum of the areas of all nodes and leaves is least: that is how many of them a ray visits
-//! (Ylitie, Karras and Laine, *Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs*, 2017, section 3.1). With
-//! C(n, i) for the least sum below and in split n, in i boxes at most, l and r for its halves, and A for its area,
+//! Those splits become nodes for which the sum of the areas of all nodes and leaves is least: that is how many of them a ray
+//! visits (Ylitie, Karras and Laine, *Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs*, 2017, section
+//! 3.1). With C(n, i) for the least sum below and in split n, in i boxes at most, l and r for its halves, and A for its area,
 //!
 //! ```text
 //! C(n, 1) = A(n)                                       of a leaf
@@ -11,8 +11,8 @@
 //! D(n, i) = min over k of C(l, k) + C(r, i - k)
 //! ```
 //!
-//! M is what a node costs besides, for its memory: without it, many small ones would have few children. A region inside of another is
-//! one box, whatever is in it: C(n, i) = C(n, 1). A node without boxes is its door.
+//! M is what a node costs besides, for its memory: without it, many small ones would have few children. A region inside of
+//! another is one box, whatever is in it: C(n, i) = C(n, 1). A node without boxes is its door.
 
 use alloc::vec::Vec;
 
