@@ -240,9 +240,7 @@ fn double() -> impl Strategy<Value = f64> {
     prop_oneof![any::<u64>().prop_map(f64::from_bits), number().prop_map(f64::from)]
 }
 
-fn vector<V: Vector>(
-    number: impl Strategy<Value = V::Scalar> + Clone,
-) -> impl Strategy<Value = V> {
+fn vector<V: Vector>(number: impl Strategy<Value = V::Scalar> + Clone) -> impl Strategy<Value = V> {
     [number.clone(), number.clone(), number]
         .prop_map(|numbers| V::from_f64(numbers.map(Into::into).into()))
 }

@@ -59,6 +59,7 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 /// assert_eq!(found.map(|(index, hit)| (index, hit.t)), Some((99, 7.0)));
 /// ```
 #[derive(Clone, Default)]
+#[expect(clippy::struct_field_names, reason = "the spheres are spheres")]
 pub struct Spheres<V: Vector = Vec3> {
     spheres: Vec<Sphere<V>>,
     /// The same spheres as the filter needs them.

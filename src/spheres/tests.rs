@@ -313,7 +313,7 @@ fn finds_every_sphere_alone_at_every_scale<V: Tested>() {
 
 /// Exponents over the whole range of the precision, of each number by itself.
 fn finds_every_sphere_alone_of_any_exponents<V: Tested>() {
-    let [largest, least] = V::LIMITS.map(|limit| limit.log2());
+    let [largest, least] = V::LIMITS.map(f64::log2);
     let mut rng = Rng::new(2);
     let mut hits = 0;
     for case in 0..3000 {

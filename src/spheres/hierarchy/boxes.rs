@@ -159,7 +159,7 @@ impl Boxes {
 ///
 /// In vectors of four: the loop over the boxes loads single numbers or groups of them, as the compiler likes, and has to wait for
 /// a group whose numbers were written one by one.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Slabs {
     /// Of each component of the direction.
     reciprocal: Vec4,

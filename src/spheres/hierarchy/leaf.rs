@@ -187,7 +187,7 @@ impl<S: Scalar> Leaf<S> {
 /// What the leaves are tested with: a ray, and how far around it a sphere may be.
 ///
 /// In vectors of four, for the reason that `Slabs` has.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Tube<S> {
     origin: [S; 4],
     /// Where the ray begins anew, if it does.

@@ -30,7 +30,7 @@ use crate::{Ray, Vector};
 const FAR: f32 = 64.0;
 
 /// The square of what the closest approach may be off by, in that of the origin's distance.
-const OF_DISTANCE: f64 = 1.0 / (1_u64 << 60) as f64 / (1_u64 << 20) as f64; // 2^-80
+const OF_DISTANCE: f64 = f64::from_bits((1023 - 80) << 52); // 2^-80
 
 /// A part of the tree.
 #[derive(Clone, Debug)]
@@ -43,7 +43,7 @@ pub(super) struct Region<V> {
 }
 
 /// A ray as it goes through a region.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Way<S> {
     pub(super) slabs: Slabs,
     pub(super) tube: Tube<S>,
@@ -52,34 +52,36 @@ pub(super) struct Way<S> {
 }
 
 impl<V: Vector> Region<V> {
-    /// The way of a ray that the filters can compute with, if it may enter one of the boxes before `end`.
+    /// Finds the way of a ray that the filters can compute with. Returns whether it may enter one of the boxes before `end`.
+    // In place: to copy what was just written takes as long as a visit.
     #[inline(always)]
-    pub(super) fn way(&self, ray: &Ray<V>, end: V::Scalar) -> Option<Way<V::Scalar>> {
+    pub(super) fn enter(&self, ray: &Ray<V>, end: V::Scalar, way: &mut Way<V::Scalar>) -> bool {
         let origin = narrow(ray.origin - self.center);
         if origin.abs().max_element() <= self.extent * FAR {
-            Some(Way { slabs: self.slabs(origin, ray), tube: Tube::new(ray), moved: 0.0 })
+            way.slabs = self.slabs(origin, ray);
+            way.tube = Tube::new(ray);
+            way.moved = 0.0;
+            true
         } else {
-            self.way_from_afar(ray, end)
+            self.enter_from_afar(ray, end, way)
         }
     }
 
     #[cold]
     #[inline(never)]
-    fn way_from_afar(&self, ray: &Ray<V>, end: V::Scalar) -> Option<Way<V::Scalar>> {
+    fn enter_from_afar(&self, ray: &Ray<V>, end: V::Scalar, way: &mut Way<V::Scalar>) -> bool {
         let origin = ray.origin.to_f64() - self.center.to_f64();
         let extent = f64::from(self.extent);
         let approach = Approach::new(origin, ray.direction.to_f64(), extent);
         let farthest = 3.1 * extent * extent + OF_DISTANCE * origin.length_squared();
-        if approach.distance_squared() > farthest {
-            return None;
-        }
         let moved = approach.moved(f64::INFINITY);
-        let is_before = moved.t < end.into();
-        is_before.then(|| Way {
-            slabs: self.slabs(moved.origin.as_vec3(), ray),
-            tube: Tube::moved(ray, moved.t),
-            moved: moved.t,
-        })
+        let enters = approach.distance_squared() <= farthest && moved.t < end.into();
+        if enters {
+            way.slabs = self.slabs(moved.origin.as_vec3(), ray);
+            way.tube = Tube::moved(ray, moved.t);
+            way.moved = moved.t;
+        }
+        enters
     }
 
     #[inline(always)]

@@ -387,7 +387,7 @@ fn bulk_of(
         if size > 0.0 && place_of_nearly_all(&counts).is_some() {
             let sample = members.iter().step_by(step).map(|member| member.sphere[axis]);
             (bulk.low[axis], bulk.high[axis]) =
-                zoom(sample, extent.centers.low[axis], extent.centers.high[axis]);
+                zoom(&sample, extent.centers.low[axis], extent.centers.high[axis]);
             is_small = true;
         }
     }
@@ -403,7 +403,7 @@ fn place_of_nearly_all(counts: &[usize; BINS]) -> Option<usize> {
 }
 
 /// Narrows an interval down to two of its bins that hold nearly all of what is in it, again and again.
-fn zoom(sample: impl Iterator<Item = f32> + Clone, mut low: f32, mut high: f32) -> (f32, f32) {
+fn zoom(sample: &(impl Iterator<Item = f32> + Clone), mut low: f32, mut high: f32) -> (f32, f32) {
     // Each time, to an eighth or to nothing.
     loop {
         #[expect(clippy::cast_precision_loss, reason = "it is small")]

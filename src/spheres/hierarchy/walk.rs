@@ -8,8 +8,9 @@ use core::ops::Range;
 use arrayvec::ArrayVec;
 
 use super::boxes::Boxes;
+use super::build::number;
 use super::leaf::{Leaf, NONE};
-use super::region::Way;
+use super::region::{Region, Way};
 use super::split::{DEEPEST, MOST_NESTED};
 use super::{LEAF, Tree};
 use crate::float::sqrt;
@@ -18,11 +19,8 @@ use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
 use crate::spheres::local::{above, local_end, narrow, to_f32};
 use crate::{Hit, Hittable, Ray, Scalar, Sphere, Vector};
 
-/// How much waits to be visited at most: of each node on the way to a leaf, all children but one, and of each region its exit.
+/// How much waits to be visited at most: of each node on the way to a leaf, all children but one, and of each region the way out.
 const MOST_WAITING: usize = DEEPEST * (LANES - 1) + MOST_NESTED;
-
-/// In the place of a node: the walk comes out of a region.
-const EXIT: u32 = LEAF - 1;
 
 /// A node or a leaf that waits, and where the ray enters its box: the bits of that distance, which is not negative, are above
 /// those of what it is. So the nearer has the lower key.
@@ -53,6 +51,7 @@ fn child(key: Key) -> u32 {
 struct Numbers([f32; LANES]);
 
 /// A ray on its way.
+#[derive(Default)]
 struct Query<S> {
     /// Through the region that it is in.
     way: Way<S>,
@@ -65,15 +64,25 @@ struct Query<S> {
 }
 
 impl<S: Scalar> Query<S> {
-    fn new(way: Way<S>, end: S) -> Self {
-        let end = local_end(end, way.moved);
-        Self { way, end, entries: Numbers::default(), clearances: Numbers::default() }
+    /// Goes into a region. Returns whether the ray may enter one of its boxes before `end`.
+    #[inline(always)]
+    fn enter<V: Vector<Scalar = S>>(&mut self, region: &Region<V>, ray: &Ray<V>, end: S) -> bool {
+        let enters = region.enter(ray, end, &mut self.way);
+        if enters {
+            self.set_end(end);
+        }
+        enters
     }
 
-    /// Goes on in another region.
-    fn go(&mut self, way: Way<S>, end: S) {
-        self.end = local_end(end, way.moved);
-        self.way = way;
+    /// Goes back into a region.
+    fn enter_again<V: Vector<Scalar = S>>(&mut self, region: &Region<V>, ray: &Ray<V>, end: S) {
+        region.enter(ray, S::INFINITY, &mut self.way);
+        self.set_end(end);
+    }
+
+    #[inline(always)]
+    fn set_end(&mut self, end: S) {
+        self.end = local_end(end, self.way.moved);
     }
 
     /// Which spheres of a leaf the ray may meet.
@@ -155,12 +164,18 @@ impl<V: Vector> Tree<V> {
         mut end: V::Scalar,
         mut ask: impl FnMut(u32, &Sphere<V>, V::Scalar) -> Option<V::Scalar>,
     ) {
-        let Some(whole) = self.regions.first() else { return };
-        let Some(way) = whole.way(ray, end) else { return };
-        let mut query = Query::new(way, end);
+        // A NaN is no end of a range, and would open the boxes of no child.
+        let is_range = end > V::Scalar::ZERO;
+        let Some(whole) = self.regions.first().filter(|_| is_range) else { return };
+        let mut query = Query::default();
+        if !query.enter(whole, ray, end) {
+            return;
+        }
         // Not cleared first: that would take as long as some visits.
         let mut waiting = ArrayVec::<Key, MOST_WAITING>::new();
-        let mut outside = ArrayVec::<Way<V::Scalar>, MOST_NESTED>::new();
+        // Numbers behind those of all nodes are regions that the walk goes back to.
+        let outside = number(self.nodes.len());
+        let mut region = 0;
         let mut next = key(0.0, whole.root);
         loop {
             let place = child(next);
@@ -182,7 +197,7 @@ impl<V: Vector> Tree<V> {
                             return;
                         }
                         end = nearer;
-                        query.end = local_end(end, query.way.moved);
+                        query.set_end(end);
                         if near != 0 {
                             // Most of the others are beyond that.
                             near &= query.near(lanes, leaf);
@@ -220,20 +235,22 @@ impl<V: Vector> Tree<V> {
                     continue;
                 }
                 // No box is entered, or the node is the door of a region.
-                if let Some(region) = node.region().and_then(|door| self.regions.get(door as usize))
-                {
-                    if let Some(way) = region.way(ray, end) {
-                        // There is room for both.
-                        let _ = outside.try_push(query.way);
-                        let _ = waiting.try_push(key(0.0, EXIT));
-                        query.go(way, end);
-                        next = key(0.0, region.root);
+                if let Some(inner) = node.region() {
+                    let Some(inside) = self.regions.get(inner as usize) else { return };
+                    if query.enter(inside, ray, end) {
+                        if !waiting.is_empty() {
+                            // There is room for it.
+                            let _ = waiting.try_push(key(0.0, outside + region));
+                        }
+                        region = inner;
+                        next = key(0.0, inside.root);
                         continue;
                     }
                 }
             } else {
-                let Some(way) = outside.pop() else { return };
-                query.go(way, end);
+                region = place - outside;
+                let Some(back) = self.regions.get(region as usize) else { return };
+                query.enter_again(back, ray, end);
             }
             loop {
                 let Some(key) = waiting.pop() else { return };
