@@ -20,6 +20,7 @@
 use glam::{DVec3, Vec3};
 
 use crate::arithmetic::rounding::RoundDown;
+use crate::sealed::{Internal, Operation};
 use crate::{Scalar, Vector};
 
 /// How far before its closest approach to the center a moved ray begins at least, in the distance from where it came.
@@ -40,8 +41,22 @@ pub(super) fn to_f32<S: Into<f64>>(number: S) -> f32 {
 
 /// The float after one that is positive and finite.
 #[inline(always)]
-pub(super) fn above<S: Scalar>(t: S) -> S {
-    -(-t).next_below()
+pub(super) fn above<V: Vector>(t: V::Scalar) -> V::Scalar {
+    struct Above<S>(S);
+
+    impl<V: Vector> Operation<V> for Above<V::Scalar> {
+        type Output = V::Scalar;
+
+        #[inline(always)]
+        fn run(self) -> V::Scalar
+        where
+            V: Internal,
+        {
+            -(-self.0).next_below()
+        }
+    }
+
+    V::perform(Above(t))
 }
 
 /// The end of a range as a ray has it that begins anew at `moved`: rounded upwards.

@@ -279,11 +279,11 @@ impl<V: Vector> Tree<V> {
             is_nearer((index, hit), nearest).then(|| {
                 nearest = Some((index, hit));
                 // Equal distances too: they may be those of a lower index.
-                above(hit.t)
+                above::<V>(hit.t)
             })
         });
         if !self.apart.is_empty() {
-            let end = nearest.map_or(end, |(_, hit)| above(hit.t));
+            let end = nearest.map_or(end, |(_, hit)| above::<V>(hit.t));
             if let Some((place, hit)) = self.apart.nearest_in_lanes(lanes, ray, start..end) {
                 let found = (*self.apart_indices.get(place)?, hit);
                 if is_nearer(found, nearest) {
