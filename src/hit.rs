@@ -1,8 +1,10 @@
 //! The hit: where a ray meets a surface, and the rays that leave from there.
 
+use core::fmt::{self, Debug, Formatter};
+
 use glam::DVec3;
 
-use crate::{Ray, Scalar, Vector};
+use crate::{Ray, Scalar, Sphere, Vector};
 
 /// A hit of a ray on a surface: the distance, the point and the normal.
 ///
@@ -26,7 +28,7 @@ use crate::{Ray, Scalar, Vector};
 ///     assert!(sphere.intersect(&reflected, 0.0..f32::INFINITY).is_none());
 /// }
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hit<V: Vector = glam::Vec3> {
     /// The distance along the ray, in lengths of its direction.
@@ -37,6 +39,37 @@ pub struct Hit<V: Vector = glam::Vec3> {
     pub normal: V,
     /// A bound on the error of the point, without the final rounding of its coordinates.
     pub(crate) error: V::Scalar,
+    /// The sphere that is hit: what the order of hits at equal `t` needs. An infinite one, which no ray
+    /// hits, where the hit is on another shape or was deserialized.
+    #[cfg_attr(feature = "serde", serde(skip, default = "no_sphere"))]
+    pub(crate) sphere: Sphere<V>,
+}
+
+/// The sphere of a hit that was deserialized.
+#[cfg(feature = "serde")]
+fn no_sphere<V: Vector>() -> Sphere<V> {
+    Sphere::new(V::default(), V::Scalar::INFINITY)
+}
+
+/// Compares all that can be seen of the hits, not on which sphere they are.
+impl<V: Vector> PartialEq for Hit<V> {
+    fn eq(&self, other: &Self) -> bool {
+        let Self { t, point, normal, error, sphere: _ } = *self;
+        (t, point, normal, error) == (other.t, other.point, other.normal, other.error)
+    }
+}
+
+impl<V: Vector> Debug for Hit<V> {
+    fn fmt(&self, formatter: &mut Formatter) -> fmt::Result {
+        let Self { t, point, normal, error, sphere: _ } = self;
+        formatter
+            .debug_struct("Hit")
+            .field("t", t)
+            .field("point", point)
+            .field("normal", normal)
+            .field("error", error)
+            .finish()
+    }
 }
 
 impl<V: Vector> Hit<V> {
@@ -73,7 +106,9 @@ impl<V: Vector> Hit<V> {
     /// ```
     #[inline]
     pub const fn new(t: V::Scalar, point: V, normal: V, error: V::Scalar) -> Self {
-        Self { t, point, normal, error }
+        // No ray hits an infinite sphere, so this is none.
+        let sphere = Sphere::new(point, V::Scalar::INFINITY);
+        Self { t, point, normal, error, sphere }
     }
 
     /// Returns whether `ray` hits the surface from outside, against the normal.

@@ -5,6 +5,7 @@ use core::iter;
 use core::ops::Range;
 
 use crate::rejection::HAS_VECTORS;
+use crate::root::order::is_nearer;
 use crate::{Hit, Ray, Vector};
 
 /// A trait for everything that a ray can hit: a sphere, many spheres, or a shape of your own.
@@ -217,9 +218,10 @@ pub fn nearest<V: Vector, H: Hittable<V>>(
     while let Some((index, object)) = candidates.next(ray, start..end) {
         // `black_box`, so that what only a hit needs of the ray is not computed ahead of the loop.
         if let Some(hit) = object.intersect(black_box(ray), start..end) {
-            // The range is half open: what comes later must be strictly nearer.
-            end = hit.t;
-            found = Some((index, hit));
+            if comes_first(ray, (index, &hit), found.as_ref()) {
+                end = V::above(hit.t);
+                found = Some((index, hit));
+            }
         }
     }
     let (index, hit) = found?;
@@ -238,14 +240,25 @@ pub(crate) fn nearest_among<'a, V: Vector, H: Hittable<V> + 'a>(
     let mut found = None;
     while let Some((index, object)) = next(end) {
         if let Some(hit) = object.intersect(ray, start..end) {
-            // The range is half open: what comes later must be strictly nearer.
-            end = hit.t;
-            found = Some((index, hit));
+            if comes_first(ray, (index, &hit), found.as_ref()) {
+                end = V::above(hit.t);
+                found = Some((index, hit));
+            }
         }
     }
     // Taken apart: otherwise it is in the caller's memory from the start, and each ray waits until the one before has written it.
     let (index, hit) = found?;
     Some((index, hit))
+}
+
+/// Whether a hit comes before the first so far. The range then ends just above its `t`, so that all that may tie is compared.
+#[inline(always)]
+fn comes_first<V: Vector>(
+    ray: &Ray<V>,
+    (index, hit): (usize, &Hit<V>),
+    first: Option<&(usize, Hit<V>)>,
+) -> bool {
+    first.is_none_or(|(first_index, first)| is_nearer(ray, (index, hit), (*first_index, first)))
 }
 
 /// The objects that pass the first test, [`Hittable::may_hit`], by ascending index.

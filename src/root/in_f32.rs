@@ -309,6 +309,11 @@ impl Precision for Vec3 {
     const LEAST_POSITIVE: f64 = f32::from_bits(1) as f64;
 
     #[inline(always)]
+    fn above(t: f32) -> f32 {
+        f32::from_bits(t.to_bits().wrapping_add(1))
+    }
+
+    #[inline(always)]
     fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
         if HAS_F64 {
             intersect::<D>(sphere, ray, range)
@@ -353,7 +358,8 @@ fn surely_rounded([near, far]: [f64; 2]) -> Option<[f32; 2]> {
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded already")]
 fn hit(sphere: &Sphere, ray: &Ray, found: Found) -> Hit {
     let (t, point) = (found.t as f32, found.point.as_vec3());
-    Hit { t, point, normal: found.normal.as_vec3(), error: point_error(t, sphere, ray) }
+    let (normal, error) = (found.normal.as_vec3(), point_error(t, sphere, ray));
+    Hit { t, point, normal, error, sphere: *sphere }
 }
 
 /// How far off the point may be besides the rounding of its coordinates, and more: see [`Hit::clearance`].

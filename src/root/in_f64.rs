@@ -123,6 +123,11 @@ impl Precision for DVec3 {
     const LEAST_POSITIVE: f64 = f64::from_bits(1);
 
     #[inline(always)]
+    fn above(t: f64) -> f64 {
+        f64::from_bits(t.to_bits().wrapping_add(1))
+    }
+
+    #[inline(always)]
     fn intersect<D: Derivation>(
         sphere: &Sphere<Self>,
         ray: &Ray<Self>,
@@ -141,7 +146,8 @@ impl Precision for DVec3 {
                         // Below the range, the other root may be in it.
                         if t >= range.start {
                             return (t < range.end).then(|| {
-                                hit(line, t, corrected.point(), corrected.offset() / line.radius)
+                                let normal = corrected.offset() / line.radius;
+                                hit(sphere, line, t, corrected.point(), normal)
                             });
                         }
                     }
@@ -150,7 +156,7 @@ impl Precision for DVec3 {
             }
         }
         let found = nearest_again(&Line::new(sphere, ray), range)?;
-        Some(hit(line, found.t, found.point, found.normal))
+        Some(hit(sphere, line, found.t, found.point, found.normal))
     }
 
     #[inline(always)]
@@ -177,8 +183,14 @@ impl Precision for DVec3 {
 
 /// The hit.
 #[inline(always)]
-fn hit(line: Line, t: f64, point: DVec3, normal: DVec3) -> Hit<DVec3> {
-    Hit { t, point, normal, error: point_error(t, line) }
+fn hit(
+    sphere: &Sphere<DVec3>,
+    line: Line,
+    t: f64,
+    point: DVec3,
+    normal: DVec3,
+) -> Hit<DVec3> {
+    Hit { t, point, normal, error: point_error(t, line), sphere: *sphere }
 }
 
 /// How far off the point may be besides the rounding of its coordinates, and more: see [`Hit::clearance`].

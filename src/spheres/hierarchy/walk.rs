@@ -9,6 +9,7 @@ use super::leaf::{Leaf, NONE, Tube};
 use super::split::DEEPEST;
 use super::{LEAF, Tree};
 use crate::float::sqrt;
+use crate::root::order::is_nearer;
 use crate::spheres::filter::Segment;
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
 use crate::{Hit, Hittable, Ray, Sphere};
@@ -219,7 +220,7 @@ impl Tree {
         let mut nearest = None;
         self.walk(lanes, ray, end, |index, sphere, end| {
             let hit = sphere.intersect(ray, start..end)?;
-            is_nearer((index, hit), nearest).then(|| {
+            is_nearest(ray, (index, &hit), nearest.as_ref()).then(|| {
                 nearest = Some((index, hit));
                 // Equal distances too: they may be those of a lower index.
                 above(hit.t)
@@ -229,7 +230,7 @@ impl Tree {
             let end = nearest.map_or(end, |(_, hit)| above(hit.t));
             if let Some((place, hit)) = self.apart.nearest_in_lanes(lanes, ray, start..end) {
                 let found = (*self.apart_indices.get(place)?, hit);
-                if is_nearer(found, nearest) {
+                if is_nearest(ray, (found.0, &found.1), nearest.as_ref()) {
                     nearest = Some(found);
                 }
             }
@@ -266,8 +267,10 @@ impl Tree {
         for (index, &place) in self.places.iter().enumerate() {
             let hit = self.at_place(place).and_then(|sphere| sphere.intersect(ray, start..end));
             if let Some(hit) = hit {
-                end = hit.t;
-                nearest = Some((index, hit));
+                if is_nearest(ray, (index, &hit), nearest.as_ref()) {
+                    end = above(hit.t);
+                    nearest = Some((index, hit));
+                }
             }
         }
         nearest
@@ -276,6 +279,6 @@ impl Tree {
 
 /// Whether a hit comes before the nearest so far.
 #[inline(always)]
-fn is_nearer((index, hit): (u32, Hit), nearest: Option<(u32, Hit)>) -> bool {
-    nearest.is_none_or(|(lowest, nearest)| (hit.t, index) < (nearest.t, lowest))
+fn is_nearest<I: Ord + Copy>(ray: &Ray, hit: (I, &Hit), nearest: Option<&(I, Hit)>) -> bool {
+    nearest.is_none_or(|(index, nearest)| is_nearer(ray, hit, (*index, nearest)))
 }
