@@ -87,8 +87,8 @@ impl<'a, V: Vector> Known<'a, V> {
     #[inline(always)]
     fn side_at(&self, ray: &Ray<V>, t: V::Scalar) -> Option<Side> {
         if let Some(nearby) = &self.nearby {
-            let ulp = V::above(t).into() - t.into();
-            match nearby.side_within(ulp) {
+            let (t, above): (f64, f64) = (t.into(), V::above(t).into());
+            match nearby.side_within(above - t, is_power_of_two(t)) {
                 Within::Neither => return None,
                 Within::One(side) => return Some(side),
                 Within::Doubt => {}
@@ -179,9 +179,10 @@ impl Nearby {
         if side == Side::Near { near } else { far }
     }
 
-    /// Which of the roots rounds to that point, where the next float is an ulp away, and the one before at least half of that.
+    /// Which of the roots rounds to that point, where the next float is an ulp away, and the one before as far, or half as far from
+    /// a power of two.
     #[inline(always)]
-    fn side_within(&self, ulp: f64) -> Within {
+    fn side_within(&self, ulp: f64, is_power_of_two: bool) -> Within {
         let half_ulp = 0.5 * ulp * self.a;
         let [near, far] = self.roots.map(f64::abs);
         let may_be = |root: f64| root <= half_ulp + self.error;
@@ -189,8 +190,11 @@ impl Nearby {
             (false, false) => Within::Neither,
             (true, false) => Within::One(Side::Near),
             (false, true) => Within::One(Side::Far),
-            (true, true) if near + self.error < 0.5 * half_ulp => Within::One(Side::Near),
-            (true, true) => Within::Doubt,
+            (true, true) => {
+                let certain = if is_power_of_two { 0.5 * half_ulp } else { half_ulp };
+                let is_near = near + self.error < certain;
+                if is_near { Within::One(Side::Near) } else { Within::Doubt }
+            }
         }
     }
 
@@ -198,8 +202,17 @@ impl Nearby {
     #[inline(always)]
     fn compare(&self, side: Side, other: &Self, other_side: Side) -> Option<Ordering> {
         let difference = self.root(side) - other.root(other_side);
-        if difference.abs() > self.error + other.error { difference.partial_cmp(&0.0) } else { None }
+        if difference.abs() > self.error + other.error {
+            difference.partial_cmp(&0.0)
+        } else {
+            None
+        }
     }
+}
+
+/// Whether a float above 0 is, or may be, a power of two.
+fn is_power_of_two(t: f64) -> bool {
+    t.to_bits().trailing_zeros() >= f64::MANTISSA_DIGITS - 1
 }
 
 impl Side {
