@@ -46,7 +46,8 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     /// Returns the nearest hit with `t` > 0 and in `range`, or `None` if there is none.
     ///
     /// To find where the ray leaves a sphere after `hit`, begin the range just above its `t`: at `hit.t.next_up()` or, before Rust
-    /// 1.86, at `f32::from_bits(hit.t.to_bits() + 1)`.
+    /// 1.86, at `f32::from_bits(hit.t.to_bits() + 1)`. It costs about what the entry costs. Among several objects, such a range skips
+    /// what has the same `t`.
     ///
     /// ```
     /// use eyeray::{Hittable, Ray, Sphere};
@@ -63,7 +64,7 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     ///
     /// // A ray starts inside a sphere if and only if its roots lie on either side of 0.
     /// let is_inside = |[near, far]: [f32; 2]| near < 0.0 && 0.0 < far;
-    /// assert_eq!(sphere.roots_algebraic(&ray).map(is_inside), Some(false));
+    /// assert_eq!(sphere.roots(&ray).map(is_inside), Some(false));
     /// ```
     #[doc(alias("raycast", "ray_cast", "cast_ray", "trace", "hit"))]
     fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>>;
@@ -189,7 +190,9 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
 
 /// Returns the nearest hit among `objects` with `t` in `range`, and the index of the object hit.
 ///
-/// Of equal `t`, the lowest index is returned. Each object is tested in turn, first by [`may_hit`](Hittable::may_hit). For spheres in
+/// Of equal `t`, the object in front is returned where both hits are on spheres: the exact roots are compared, and only where these
+/// are equal too, the lowest index is returned. That holds of spheres in boxes and in shapes of your own, if these return the hit of
+/// the sphere with the same ray. Of other hits, created by [`Hit::new`], the lowest index is returned. Each object is tested in turn, first by [`may_hit`](Hittable::may_hit). For spheres in
 /// `f32`, `Spheres` and `SphereBvh` (feature `alloc`) return the same in less time.
 ///
 /// Use it for picking: with the [`pixel_ray`](crate::Camera::pixel_ray) of the mouse, the index is that of the object below it.
@@ -219,7 +222,7 @@ pub fn nearest<V: Vector, H: Hittable<V>>(
         // `black_box`, so that what only a hit needs of the ray is not computed ahead of the loop.
         if let Some(hit) = object.intersect(black_box(ray), start..end) {
             if comes_first(ray, (index, &hit), found.as_ref()) {
-                end = V::above(hit.t);
+                end = V::next_above(hit.t);
                 found = Some((index, hit));
             }
         }
@@ -241,7 +244,7 @@ pub(crate) fn nearest_among<'a, V: Vector, H: Hittable<V> + 'a>(
     while let Some((index, object)) = next(end) {
         if let Some(hit) = object.intersect(ray, start..end) {
             if comes_first(ray, (index, &hit), found.as_ref()) {
-                end = V::above(hit.t);
+                end = V::next_above(hit.t);
                 found = Some((index, hit));
             }
         }

@@ -352,7 +352,7 @@ impl Precision for Vec3 {
     const LEAST_POSITIVE: f64 = f32::from_bits(1) as f64;
 
     #[inline(always)]
-    fn above(t: f32) -> f32 {
+    fn next_above(t: f32) -> f32 {
         f32::from_bits(t.to_bits().wrapping_add(1))
     }
 

@@ -121,7 +121,7 @@ impl Precision for DVec3 {
     const LEAST_POSITIVE: f64 = f64::from_bits(1);
 
     #[inline(always)]
-    fn above(t: f64) -> f64 {
+    fn next_above(t: f64) -> f64 {
         f64::from_bits(t.to_bits().wrapping_add(1))
     }
 

@@ -59,6 +59,7 @@ fn compare_at_equal_t<V: Vector>(ray: &Ray<V>, first: &Hit<V>, second: &Hit<V>) 
     compare_known(ray, (a, a_side), (b, b_side))
 }
 
+#[allow(dead_code, reason = "until the iterator over crossings asks it")]
 /// Compares two crossings of one ray, which both exist: `Less` where the first comes before the second, `Equal` only where their
 /// exact roots are equal. The result does not depend on `t`, but takes less time where that is close to both.
 pub(crate) fn compare_crossings<V: Vector>(
@@ -87,7 +88,7 @@ impl<'a, V: Vector> Known<'a, V> {
     #[inline(always)]
     fn side_at(&self, ray: &Ray<V>, t: V::Scalar) -> Option<Side> {
         if let Some(nearby) = &self.nearby {
-            let (t, above): (f64, f64) = (t.into(), V::above(t).into());
+            let (t, above): (f64, f64) = (t.into(), V::next_above(t).into());
             match nearby.side_within(above - t, is_power_of_two(t)) {
                 Within::Neither => return None,
                 Within::One(side) => return Some(side),

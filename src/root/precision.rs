@@ -13,7 +13,7 @@ pub trait Precision: Sized {
     const LEAST_POSITIVE: f64;
 
     /// The float after one that is positive and finite.
-    fn above(t: Self::Scalar) -> Self::Scalar
+    fn next_above(t: Self::Scalar) -> Self::Scalar
     where
         Self: Vector;
 

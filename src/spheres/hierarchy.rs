@@ -21,7 +21,7 @@ use crate::{Hit, Hittable, Ray, Sphere};
 /// A collection of many spheres in `f32`, which finds the nearest hit with a bounding volume hierarchy (BVH).
 ///
 /// It returns what [`nearest`](crate::nearest) returns for a slice of the same spheres, bit for bit: the same hit and the same index,
-/// the lowest among equal distances. It skips groups of spheres whose box the ray does not enter, or enters beyond the nearest hit
+/// that of the sphere in front, also where distances round to the same number. It skips groups of spheres whose box the ray does not enter, or enters beyond the nearest hit
 /// so far. The error of these tests is bounded, so they never skip a sphere that is hit.
 ///
 /// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost nothing. Up to 16 that are
@@ -119,7 +119,8 @@ impl SphereBvh {
         (0..self.len()).map(|index| self.get(index).unwrap_or_default())
     }
 
-    /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the lowest index.
+    /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the sphere in
+    /// front by the exact roots, and of equal exact roots the lowest index.
     #[inline]
     pub fn nearest(&self, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
         match &self.0 {

@@ -15,8 +15,8 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 
 /// A collection of few or changing spheres in `f32`, which finds the nearest hit by testing many spheres at a time.
 ///
-/// It returns what [`nearest`] returns for a slice of the same spheres, bit for bit: the same hit and the same index, the lowest
-/// among equal distances. It takes less time, because most spheres are dropped in single precision, many at a time. The error of this
+/// It returns what [`nearest`] returns for a slice of the same spheres, bit for bit: the same hit and the same index, that of
+/// the sphere in front, also where distances round to the same number. It takes less time, because most spheres are dropped in single precision, many at a time. The error of this
 /// test is bounded, so it never drops a sphere that is hit; the spheres that pass it are intersected exactly.
 ///
 /// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost no more than others. A
@@ -189,7 +189,8 @@ impl Spheres {
         self.into_iter()
     }
 
-    /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the lowest index.
+    /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the sphere in
+    /// front by the exact roots, and of equal exact roots the lowest index.
     #[inline]
     pub fn nearest(&self, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
         if self.len() <= FEW {
