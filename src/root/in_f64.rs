@@ -102,7 +102,7 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
         if t > 0.0 && range.contains(&t) {
             return surface::hit(line, o, root, t).map(Some);
         }
-        if is_behind || !(t < range.start) {
+        if is_behind || t >= range.start {
             return Some(None);
         }
     }
