@@ -5,7 +5,8 @@ use core::iter;
 use core::ops::Range;
 
 use crate::rejection::HAS_VECTORS;
-use crate::root::order::is_nearer;
+use crate::root::order::{is_nearer, next_above};
+use crate::sealed::Crate;
 use crate::{Hit, Ray, Vector};
 
 /// A trait for everything that a ray can hit: a sphere, many spheres, or a shape of your own.
@@ -116,11 +117,11 @@ pub trait Hittable<V: Vector = glam::Vec3> {
         true
     }
 
-    /// Returns which of four objects [may be hit](Self::may_hit), as a bit mask: bit `1 << i` stands for `objects[i]`.
-    ///
-    /// On targets with vectors of four numbers, [`nearest`] and slices test four objects at a time.
+    /// Which of four objects [may be hit](Self::may_hit): the bit `1 << i` is that of `objects[i]`. Only this crate can call it or
+    /// implement it, so that it may change.
+    #[doc(hidden)]
     #[inline]
-    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32
+    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>, _: Crate) -> u32
     where
         Self: Sized,
     {
@@ -222,7 +223,7 @@ pub fn nearest<V: Vector, H: Hittable<V>>(
         // `black_box`, so that what only a hit needs of the ray is not computed ahead of the loop.
         if let Some(hit) = object.intersect(black_box(ray), start..end) {
             if comes_first(ray, (index, &hit), found.as_ref()) {
-                end = V::next_above(hit.t);
+                end = next_above::<V>(hit.t);
                 found = Some((index, hit));
             }
         }
@@ -244,7 +245,7 @@ pub(crate) fn nearest_among<'a, V: Vector, H: Hittable<V> + 'a>(
     while let Some((index, object)) = next(end) {
         if let Some(hit) = object.intersect(ray, start..end) {
             if comes_first(ray, (index, &hit), found.as_ref()) {
-                end = V::next_above(hit.t);
+                end = next_above::<V>(hit.t);
                 found = Some((index, hit));
             }
         }
@@ -294,7 +295,7 @@ impl<'a, H> Candidates<'a, H> {
                 self.next = index + 1;
                 return Some((index, self.objects.get(index)?));
             };
-            self.passed = H::may_hit_four(four, ray, range.clone());
+            self.passed = H::may_hit_four(four, ray, range.clone(), Crate(()));
             self.next += 4;
         }
         let index = self.next - 4 + self.passed.trailing_zeros() as usize;

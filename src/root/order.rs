@@ -22,12 +22,12 @@ use super::crossing::{Line, Side};
 use super::in_f64::is_safe;
 use super::pairs::offset;
 use super::surds::common_unit;
-use crate::algebraic::Quadratic;
 use crate::arithmetic::integer::{Integer, PLACES, Shifted};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::U;
 use crate::arithmetic::scaling::exponent;
 use crate::float::sqrt;
+use crate::sealed::{Internal, Operation};
 use crate::{Hit, Ray, Sphere, Vector};
 
 #[cfg(test)]
@@ -72,6 +72,26 @@ pub(crate) fn compare_crossings<V: Vector>(
     compare_known(ray, (first, first_side), (second, second_side))
 }
 
+/// The float after one that is positive and finite.
+#[inline(always)]
+pub(crate) fn next_above<V: Vector>(t: V::Scalar) -> V::Scalar {
+    V::perform(NextAbove(t))
+}
+
+struct NextAbove<S>(S);
+
+impl<V: Vector> Operation<V> for NextAbove<V::Scalar> {
+    type Output = V::Scalar;
+
+    #[inline(always)]
+    fn run(self) -> V::Scalar
+    where
+        V: Internal,
+    {
+        V::next_above(self.0)
+    }
+}
+
 /// A sphere, and what `f64` knows of its crossings.
 struct Known<'a, V: Vector> {
     sphere: &'a Sphere<V>,
@@ -88,14 +108,14 @@ impl<'a, V: Vector> Known<'a, V> {
     #[inline(always)]
     fn side_at(&self, ray: &Ray<V>, t: V::Scalar) -> Option<Side> {
         if let Some(nearby) = &self.nearby {
-            let (t, above): (f64, f64) = (t.into(), V::next_above(t).into());
+            let (t, above): (f64, f64) = (t.into(), next_above::<V>(t).into());
             match nearby.side_within(above - t, is_power_of_two(t)) {
                 Within::Neither => return None,
                 Within::One(side) => return Some(side),
                 Within::Doubt => {}
             }
         }
-        let [near, far] = V::roots::<Quadratic>(self.sphere, ray)?;
+        let [near, far] = self.sphere.roots(ray)?;
         if near == t {
             Some(Side::Near)
         } else if far == t {
