@@ -50,7 +50,6 @@ mod halves;
 mod in_f32;
 mod in_f64;
 mod integers;
-#[allow(dead_code, reason = "until slices ask it")]
 pub(crate) mod order;
 mod pairs;
 mod plain;

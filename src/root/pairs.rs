@@ -115,8 +115,8 @@ pub(super) struct InPairs<'a> {
 
 /// w = t d - o. Where it is next to nothing beside o, the low part need not be small beside the high one.
 #[inline(always)]
-fn offset(Scaled { o, d, .. }: &Scaled, t: f64) -> Triple<Pair> {
-    o.zip(*d, |o, d| {
+pub(super) fn offset(o: Triple<Pair>, d: Triple<f64>, t: f64) -> Triple<Pair> {
+    o.zip(d, |o, d| {
         let step = two_product(t, d);
         let high = two_difference(step.hi, o.hi);
         let low = two_difference(step.lo, o.lo);
@@ -151,7 +151,7 @@ pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
     }
 
     let start = h / a;
-    let w = offset(&near.scaled, start).map(|w| two_sum(w.hi, w.lo));
+    let w = offset(near.scaled.o, near.scaled.d, start).map(|w| two_sum(w.hi, w.lo));
     let (power, larger) = power_in_pairs(w, radius);
     let along = compensated_dot(d, w.map(|w| w.hi));
     let along = along.hi + (along.lo + d.dot(w.map(|w| w.lo)));
@@ -187,7 +187,7 @@ impl InPairs<'_> {
         let Scaled { d, radius, .. } = self.scaled;
         let along = if side == Side::Near { h - half_chord } else { h + half_chord };
         let way = along / a;
-        let w = offset(&self.scaled, way);
+        let w = offset(self.scaled.o, self.scaled.d, way);
         let (power, _) = power_in_pairs(w, radius);
         let inverse_slope = (2.0 * w.map(|w| w.hi).dot(d)).recip();
         let q = power.hi * inverse_slope;
@@ -347,7 +347,7 @@ pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Wide) -> Option<
     let o = o.map(|o| o.hi);
     let length = sqrt(d.dot(d));
     let root = root.scaled(-scaled.exponent());
-    let w = offset(&scaled, root.hi);
+    let w = offset(scaled.o, scaled.d, root.hi);
     let reach = sqrt(o.dot(o)) + scaled.radius + root.hi.abs() * length;
     let error = integers::ROOT_ERROR * root.hi.abs();
     let root = Corrected { t: root, error, w, correction: root.lo };

@@ -25,7 +25,7 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// A collection of many spheres, which finds the nearest hit with a bounding volume hierarchy (BVH).
 ///
 /// It returns what [`nearest`](crate::nearest) returns for a slice of the same spheres, bit for bit: the same hit and the same
-/// index, the lowest among equal distances. It skips groups of spheres whose box the ray does not enter, or enters beyond the
+/// index, that of the sphere in front, also where distances round to the same number. It skips groups of spheres whose box the ray does not enter, or enters beyond the
 /// nearest hit so far. The error of these tests is bounded, so they never skip a sphere that is hit.
 ///
 /// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost nothing. Up to 16 that
@@ -113,7 +113,7 @@ impl<V: Vector> SphereBvh<V> {
     pub fn get(&self, index: usize) -> Option<Sphere<V>> {
         match &self.0 {
             Shape::Scan(spheres) => spheres.get(index),
-            Shape::Tree(tree) => tree.at_place(*tree.places.get(index)?),
+            Shape::Tree(tree) => tree.get(index),
         }
     }
 
@@ -125,7 +125,8 @@ impl<V: Vector> SphereBvh<V> {
         (0..self.len()).map(|index| self.get(index).unwrap_or_default())
     }
 
-    /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the lowest index.
+    /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the sphere in
+    /// front by the exact roots, and of equal exact roots the lowest index.
     #[inline]
     pub fn nearest(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<(usize, Hit<V>)> {
         match &self.0 {
@@ -170,6 +171,11 @@ impl<V: Vector> SphereBvh<V> {
 }
 
 impl<V: Vector> Tree<V> {
+    /// The sphere at `index`.
+    fn get(&self, index: usize) -> Option<Sphere<V>> {
+        self.at_place(*self.places.get(index)?)
+    }
+
     /// The sphere at one of the `places`.
     fn at_place(&self, place: u32) -> Option<Sphere<V>> {
         let place = place as usize;

@@ -19,10 +19,10 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 
 /// A collection of few or changing spheres, which finds the nearest hit by testing many spheres at a time.
 ///
-/// It returns what [`nearest`] returns for a slice of the same spheres, bit for bit: the same hit and the same index, the lowest
-/// among equal distances. It takes less time, because most spheres are dropped in single precision, many at a time, in both
-/// precisions. The error of this test is bounded, so it never drops a sphere that is hit; the spheres that pass it are
-/// intersected exactly.
+/// It returns what [`nearest`] returns for a slice of the same spheres, bit for bit: the same hit and the same index, that of the
+/// sphere in front, also where distances round to the same number. It takes less time, because most spheres are dropped in single
+/// precision, many at a time, in both precisions. The error of this test is bounded, so it never drops a sphere that is hit; the
+/// spheres that pass it are intersected exactly.
 ///
 /// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost no more than others.
 /// Where the spheres are does not matter, nor from how far away a ray comes. Only a sphere with a radius beyond 2⁶⁰, or farther
@@ -224,7 +224,8 @@ impl<V: Vector> Spheres<V> {
         self.into_iter()
     }
 
-    /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the lowest index.
+    /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the sphere in
+    /// front by the exact roots, and of equal exact roots the lowest index.
     #[inline]
     pub fn nearest(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<(usize, Hit<V>)> {
         if self.len() <= FEW {

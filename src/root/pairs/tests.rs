@@ -68,7 +68,7 @@ fn offsets_are_as_fine_as_themselves() {
         let root = exact.roots().map(|[near, _]| near.approximately());
         let approach = exact.h.divided_by(&exact.a, 60).approximately();
         let parts = [root, Some(approach)].into_iter().flatten().map(|t| {
-            let Triple { x, y, z } = offset(&scaled, t);
+            let Triple { x, y, z } = offset(scaled.o, scaled.d, t);
             let expected = exact_line.offset(&Dyadic::exactly(t));
             let error = length(&[0, 1, 2].map(|axis| &exactly([x, y, z][axis]) - &expected[axis]));
             let reach = length(&exact_line.o);

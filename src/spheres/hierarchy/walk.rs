@@ -14,6 +14,7 @@ use super::region::{Region, Way};
 use super::split::{DEEPEST, MOST_NESTED};
 use super::{LEAF, Tree};
 use crate::float::sqrt;
+use crate::root::order::is_nearer;
 use crate::spheres::filter::{LARGEST, Segment};
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
 use crate::spheres::local::{above, local_end, narrow, to_f32};
@@ -276,7 +277,7 @@ impl<V: Vector> Tree<V> {
         let mut nearest = None;
         self.walk(lanes, ray, end, |index, sphere, end| {
             let hit = sphere.intersect(ray, start..end)?;
-            is_nearer((index, hit), nearest).then(|| {
+            self.is_nearer(ray, (index, &hit), nearest.as_ref()).then(|| {
                 nearest = Some((index, hit));
                 // Equal distances too: they may be those of a lower index.
                 above::<V>(hit.t)
@@ -286,7 +287,7 @@ impl<V: Vector> Tree<V> {
             let end = nearest.map_or(end, |(_, hit)| above::<V>(hit.t));
             if let Some((place, hit)) = self.apart.nearest_in_lanes(lanes, ray, start..end) {
                 let found = (*self.apart_indices.get(place)?, hit);
-                if is_nearer(found, nearest) {
+                if self.is_nearer(ray, (found.0, &found.1), nearest.as_ref()) {
                     nearest = Some(found);
                 }
             }
@@ -323,11 +324,28 @@ impl<V: Vector> Tree<V> {
         for (index, &place) in self.places.iter().enumerate() {
             let hit = self.at_place(place).and_then(|sphere| sphere.intersect(ray, start..end));
             if let Some(hit) = hit {
-                end = hit.t;
-                nearest = Some((index, hit));
+                if self.is_nearer(ray, (number(index), &hit), nearest.as_ref()) {
+                    end = above::<V>(hit.t);
+                    nearest = Some((number(index), hit));
+                }
             }
         }
-        nearest
+        let (index, hit) = nearest?;
+        Some((index as usize, hit))
+    }
+
+    /// Whether a hit comes before the nearest so far.
+    #[inline(always)]
+    fn is_nearer(
+        &self,
+        ray: &Ray<V>,
+        (index, hit): (u32, &Hit<V>),
+        nearest: Option<&(u32, Hit<V>)>,
+    ) -> bool {
+        nearest.is_none_or(|&(other, nearest)| {
+            let spheres = || [index, other].map(|index| self.get(index as usize));
+            is_nearer(ray, (index, hit.t), (other, nearest.t), spheres)
+        })
     }
 }
 
@@ -335,10 +353,4 @@ impl<V: Vector> Tree<V> {
 #[inline(always)]
 fn allows<V: Vector>(ray: &Ray<V>) -> bool {
     Segment::allows(narrow(ray.origin), narrow(ray.direction), LARGEST * LARGEST)
-}
-
-/// Whether a hit comes before the nearest so far.
-#[inline(always)]
-fn is_nearer<V: Vector>((index, hit): (u32, Hit<V>), nearest: Option<(u32, Hit<V>)>) -> bool {
-    nearest.is_none_or(|(lowest, nearest)| (hit.t, index) < (nearest.t, lowest))
 }
