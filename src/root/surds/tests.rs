@@ -119,8 +119,7 @@ fn memory_that_is_too_small_gives_no_answer() {
     let mut random = Random::new(4);
     let (mut counts, mut panics) = ([0; 2], [0; 2]);
     for round in 0..3000 {
-        let (format, index) =
-            if round % 2 == 0 { (Format::F32, 0) } else { (Format::F64, 1) };
+        let (format, index) = if round % 2 == 0 { (Format::F32, 0) } else { (Format::F64, 1) };
         let line = line_of_ends(&mut random, format);
         let in_less = || match format {
             Format::F32 => answer::<{ F32_DIGITS / 6 * 5 }>(&line, format, &ALL),
