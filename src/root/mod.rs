@@ -50,6 +50,8 @@ mod halves;
 mod in_f32;
 mod in_f64;
 mod integers;
+#[allow(dead_code, reason = "until slices ask it")]
+pub(crate) mod order;
 mod pairs;
 mod plain;
 mod points;
@@ -60,7 +62,8 @@ mod surface;
 
 use core::ops::Range;
 
-use crossing::{Answer, Found, Line, Question, Side, Verdict};
+pub(crate) use crossing::Side;
+use crossing::{Answer, Found, Line, Question, Verdict};
 use format::Format;
 use integers::Exact;
 

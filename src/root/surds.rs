@@ -188,7 +188,7 @@ struct InSurds<'m> {
 /// The exponent of the largest power of two that all coordinates are multiples of, any if these are zeros; `None` where one is
 /// not finite.
 #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
-fn common_unit(vectors: &[DVec3]) -> Option<i32> {
+pub(super) fn common_unit(vectors: &[DVec3]) -> Option<i32> {
     /// That of the last place of the largest number.
     const LARGEST: i32 = 971;
     let mut unit = LARGEST;
