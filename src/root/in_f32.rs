@@ -138,7 +138,7 @@ fn from_the_surface(line: &Line, chord: Chord<f64>, range: Range<f32>) -> Verdic
     }
     let t = 2.0 * h / a;
     let rounded = t as f32;
-    if !rounds_safely::<MARGIN>(t) || rounded < f32::MIN_POSITIVE {
+    if !rounds_safely::<MARGIN>(t) || rounded <= f32::MIN_POSITIVE {
         return Verdict::Doubt;
     }
     if !range.contains(&rounded) {
@@ -183,8 +183,9 @@ fn nearest_again(
             Verdict::Doubt => None,
         },
     };
-    // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
-    let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
+    // Below the range, the other root may be in it; rounding is another matter below the normal numbers, and of what is rounded up to
+    // the smallest of them.
+    let is_certain = |rounded: f32| rounded >= start && rounded > f32::MIN_POSITIVE;
     let Some((t, rounded)) = rounded.filter(|(_, rounded)| is_certain(*rounded)) else {
         return nearest_carefully(line, Format::F32, start.into()..end.into());
     };
@@ -267,9 +268,8 @@ fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Op
         Nearest::Miss => return None,
         Nearest::Root { t, .. } => {
             let rounded = t as f32;
-            // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
-            if rounds_safely::<MARGIN>(t) && rounded >= range.start && rounded >= f32::MIN_POSITIVE
-            {
+            // Below the range, the other root may be in it; down to the smallest normal number, rounding is another matter.
+            if rounds_safely::<MARGIN>(t) && rounded >= range.start && rounded > f32::MIN_POSITIVE {
                 // Not where that is NaN.
                 let is_in_range = rounded < range.end;
                 if !is_in_range {
@@ -341,7 +341,9 @@ impl Precision for Vec3 {
 fn surely_rounded([near, far]: [f64; 2]) -> Option<[f32; 2]> {
     if rounds_safely::<MARGIN>(near) && rounds_safely::<MARGIN>(far) {
         let rounded = [near as f32, far as f32];
-        if rounded[0].is_normal() && rounded[1].is_normal() {
+        // As for the nearest root.
+        let is_certain = |rounded: f32| rounded.is_normal() && rounded.abs() != f32::MIN_POSITIVE;
+        if is_certain(rounded[0]) && is_certain(rounded[1]) {
             return Some(rounded);
         }
     }

@@ -286,10 +286,11 @@ impl Corrected {
     /// By how much it is above a number next to it, but for the last place of that difference.
     #[inline(always)]
     fn above(&self, Midpoint { integer, exponent }: Midpoint) -> f64 {
-        // The number is odd: an even one, of 53 bits, and 1.
+        // The number is odd: an even one, of 53 bits and no larger, and 1. So next to it both differences are exact.
+        let one = integer.signum();
         #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
-        let even = scale((integer - 1) as f64, exponent);
-        ((self.t.hi - even) - scale(1.0, exponent)) + self.t.lo
+        let [even, one] = [integer - one, one].map(|part| scale(part as f64, exponent));
+        ((self.t.hi - even) - one) + self.t.lo
     }
 
     /// From the center to where the line is there.
