@@ -20,8 +20,9 @@ use crate::algebraic::Quadratic;
 use crate::arithmetic::rounding::RoundDown;
 use crate::arithmetic::scaling::scale;
 use crate::geometric::ClosestApproach;
+use crate::sealed::Internal;
 use crate::testing::Random;
-use crate::vector::{Scalar, Vector};
+use crate::vector::Scalar;
 use crate::{Ray, Sphere};
 
 /// Rows of integers at right angles and of one length.
@@ -196,7 +197,7 @@ fn is_near(format: Format, line: &Line, found: &Found, exact: &Found) -> bool {
 }
 
 /// What is wrong with the answers for a line and a sphere.
-fn wrong<V: Vector>(numbers: [f64; 10], format: Format, with_oracle: bool) -> Option<String>
+fn wrong<V: Internal>(numbers: [f64; 10], format: Format, with_oracle: bool) -> Option<String>
 where
     V::Scalar: Debug,
 {
