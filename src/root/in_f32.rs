@@ -139,7 +139,7 @@ fn from_the_surface(line: &Line, chord: Chord<f64>, range: Range<f32>) -> Verdic
     }
     let t = 2.0 * h / a;
     let rounded = t as f32;
-    if !rounds_safely::<MARGIN>(t) || rounded < f32::MIN_POSITIVE {
+    if !rounds_safely::<MARGIN>(t) || rounded <= f32::MIN_POSITIVE {
         return Verdict::Doubt;
     }
     if !range.contains(&rounded) {
@@ -182,14 +182,14 @@ fn nearest_again(
             Verdict::Doubt => return carefully(),
         },
     };
-    // Below the normal numbers, rounding is another matter.
+    // Rounding is another matter below the normal numbers, and of what is rounded up to the smallest of them.
     let round = |t: f64, half_chord: f64| {
         let rounded = if rounds_safely::<MARGIN>(t) {
             Some(t as f32)
         } else {
             round_carefully(line, t, half_chord)
         };
-        rounded.filter(|&rounded| rounded >= f32::MIN_POSITIVE)
+        rounded.filter(|&rounded| rounded > f32::MIN_POSITIVE)
     };
     let Some(rounded) = round(t, half_chord) else { return carefully() };
     let (t, half_chord, rounded) = if rounded < start && half_chord > 0.0 {
@@ -288,8 +288,8 @@ fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Op
         Nearest::Miss => return None,
         Nearest::Root { t, half_chord } => {
             let rounded = t as f32;
-            // Below the normal numbers, rounding is another matter.
-            let is_certain = rounds_safely::<MARGIN>(t) && rounded >= f32::MIN_POSITIVE;
+            // Down to the smallest normal number, rounding is another matter.
+            let is_certain = rounds_safely::<MARGIN>(t) && rounded > f32::MIN_POSITIVE;
             if is_certain && rounded >= range.start {
                 // Not where that is NaN.
                 let is_in_range = rounded < range.end;
@@ -389,7 +389,9 @@ impl Precision for Vec3 {
 fn surely_rounded([near, far]: [f64; 2]) -> Option<[f32; 2]> {
     if rounds_safely::<MARGIN>(near) && rounds_safely::<MARGIN>(far) {
         let rounded = [near as f32, far as f32];
-        if rounded[0].is_normal() && rounded[1].is_normal() {
+        // As for the nearest root.
+        let is_certain = |rounded: f32| rounded.is_normal() && rounded.abs() != f32::MIN_POSITIVE;
+        if is_certain(rounded[0]) && is_certain(rounded[1]) {
             return Some(rounded);
         }
     }

@@ -67,6 +67,8 @@ use format::Format;
 use integers::Exact;
 
 #[cfg(test)]
+mod any_exponent;
+#[cfg(test)]
 mod tests;
 
 /// Finds the nearest hit, where the plain steps leave a doubt.
