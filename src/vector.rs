@@ -3,7 +3,7 @@
 use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use glam::{DVec2, DVec3, Vec2, Vec3};
+use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec3};
 
 use crate::arithmetic::rounding::RoundDown;
 use crate::rejection::{Bounds, Rejection};
@@ -46,6 +46,9 @@ pub trait Vector:
     /// The vector of two dimensions of the same precision, for points of the view plane and for pixels.
     type Vec2: Copy + Debug + Default + PartialEq + Send + Sync + 'static;
 
+    /// The matrix of the same precision, for view and projection matrices: [`Mat4`](glam::Mat4) or [`DMat4`](glam::DMat4).
+    type Mat4: Copy + Debug + Default + PartialEq + Send + Sync + 'static;
+
     /// Converts the vector to `f64`, exactly.
     fn to_f64(self) -> DVec3;
 
@@ -57,6 +60,12 @@ pub trait Vector:
 
     /// Rounds each of two coordinates to the nearest value of this precision.
     fn vec2_from_f64(vector: DVec2) -> Self::Vec2;
+
+    /// Converts the matrix to `f64`, exactly.
+    fn mat4_to_f64(matrix: Self::Mat4) -> DMat4;
+
+    /// Rounds each element of a matrix to the nearest value of this precision.
+    fn mat4_from_f64(matrix: DMat4) -> Self::Mat4;
 
     /// Computes the dot product, as glam does.
     #[must_use]
@@ -122,6 +131,7 @@ impl Scalar for f64 {
 impl Vector for Vec3 {
     type Scalar = f32;
     type Vec2 = Vec2;
+    type Mat4 = Mat4;
 
     #[inline]
     fn to_f64(self) -> DVec3 {
@@ -144,6 +154,16 @@ impl Vector for Vec3 {
     }
 
     #[inline]
+    fn mat4_to_f64(matrix: Mat4) -> DMat4 {
+        matrix.as_dmat4()
+    }
+
+    #[inline]
+    fn mat4_from_f64(matrix: DMat4) -> Mat4 {
+        matrix.as_mat4()
+    }
+
+    #[inline]
     fn dot(self, other: Self) -> f32 {
         Vec3::dot(self, other)
     }
@@ -152,6 +172,7 @@ impl Vector for Vec3 {
 impl Vector for DVec3 {
     type Scalar = f64;
     type Vec2 = DVec2;
+    type Mat4 = DMat4;
 
     #[inline]
     fn to_f64(self) -> DVec3 {
@@ -171,6 +192,16 @@ impl Vector for DVec3 {
     #[inline]
     fn vec2_from_f64(vector: DVec2) -> DVec2 {
         vector
+    }
+
+    #[inline]
+    fn mat4_to_f64(matrix: DMat4) -> DMat4 {
+        matrix
+    }
+
+    #[inline]
+    fn mat4_from_f64(matrix: DMat4) -> DMat4 {
+        matrix
     }
 
     #[inline]
