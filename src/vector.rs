@@ -47,7 +47,7 @@ pub trait Vector:
     type Vec2: Copy + Debug + Default + PartialEq + Send + Sync + 'static;
 
     /// The matrix of the same precision, for view and projection matrices: [`Mat4`](glam::Mat4) or [`DMat4`](glam::DMat4).
-    type Mat4: Copy + Debug + Default + PartialEq + Send + Sync + 'static;
+    type Mat4: Matrix<Vector = Self>;
 
     /// Converts the vector to `f64`, exactly.
     fn to_f64(self) -> DVec3;
@@ -60,12 +60,6 @@ pub trait Vector:
 
     /// Rounds each of two coordinates to the nearest value of this precision.
     fn vec2_from_f64(vector: DVec2) -> Self::Vec2;
-
-    /// Converts the matrix to `f64`, exactly.
-    fn mat4_to_f64(matrix: Self::Mat4) -> DMat4;
-
-    /// Rounds each element of a matrix to the nearest value of this precision.
-    fn mat4_from_f64(matrix: DMat4) -> Self::Mat4;
 
     /// Computes the dot product, as glam does.
     #[must_use]
@@ -154,16 +148,6 @@ impl Vector for Vec3 {
     }
 
     #[inline]
-    fn mat4_to_f64(matrix: Mat4) -> DMat4 {
-        matrix.as_dmat4()
-    }
-
-    #[inline]
-    fn mat4_from_f64(matrix: DMat4) -> Mat4 {
-        matrix.as_mat4()
-    }
-
-    #[inline]
     fn dot(self, other: Self) -> f32 {
         Vec3::dot(self, other)
     }
@@ -195,17 +179,47 @@ impl Vector for DVec3 {
     }
 
     #[inline]
-    fn mat4_to_f64(matrix: DMat4) -> DMat4 {
-        matrix
-    }
-
-    #[inline]
-    fn mat4_from_f64(matrix: DMat4) -> DMat4 {
-        matrix
-    }
-
-    #[inline]
     fn dot(self, other: Self) -> f64 {
         DVec3::dot(self, other)
+    }
+}
+
+/// A matrix of four by four, of the precision of a vector. The vector follows from the matrix, so that a call need not name it.
+pub trait Matrix: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
+    /// The vector of the same precision.
+    type Vector: Vector<Mat4 = Self>;
+
+    /// Converts the matrix to `f64`, exactly.
+    fn to_f64(self) -> DMat4;
+
+    /// Rounds each element to the nearest value of this precision: beyond the largest finite one, infinity.
+    fn from_f64(matrix: DMat4) -> Self;
+}
+
+impl Matrix for Mat4 {
+    type Vector = Vec3;
+
+    #[inline]
+    fn to_f64(self) -> DMat4 {
+        self.as_dmat4()
+    }
+
+    #[inline]
+    fn from_f64(matrix: DMat4) -> Self {
+        matrix.as_mat4()
+    }
+}
+
+impl Matrix for DMat4 {
+    type Vector = DVec3;
+
+    #[inline]
+    fn to_f64(self) -> DMat4 {
+        self
+    }
+
+    #[inline]
+    fn from_f64(matrix: DMat4) -> Self {
+        matrix
     }
 }

@@ -16,6 +16,7 @@ use glam::{DMat4, DVec3, DVec4};
 use super::basis::{basis, moved_to_origin, negated_dot};
 use super::{Camera, CameraArgument, CameraError, Frame, Projection, ViewRect};
 use crate::Vector;
+use crate::vector::Matrix;
 
 /// How far the rows of a view matrix may be from orthonormal: a product of two of them from 0, or of one with itself from 1.
 ///
@@ -37,7 +38,7 @@ enum Forward {
 }
 
 impl<V: Vector> Frame<V> {
-    /// Creates the frame of a view matrix, the matrix from world space to view space, with x to the right, y upwards and z backwards:
+    /// Creates the frame of a view matrix (`Mat4`, or for `DVec3` `DMat4`), the matrix from world space to view space, with x to the right, y upwards and z backwards:
     /// right-handed view space.
     ///
     /// The eye is the exact point that the matrix moves to the origin, rounded to the precision of `V`. The rows of the rotation are
@@ -69,8 +70,8 @@ impl<V: Vector> Frame<V> {
     /// If the matrix or the eye is not finite, its last row is not (0, 0, 0, 1), or it scales or shears: a product of two of its rows is
     /// off by more than 10⁻⁴ from 0, or of one with itself from 1.
     #[doc(alias("extrinsics", "world_to_view", "world_to_camera"))]
-    pub fn from_view_matrix(view_matrix: &V::Mat4) -> Result<Self, CameraError> {
-        Self::read(view_matrix, Forward::NegativeZ)
+    pub fn from_view_matrix<M: Matrix<Vector = V>>(view_matrix: &M) -> Result<Self, CameraError> {
+        Self::read(view_matrix.to_f64(), Forward::NegativeZ)
     }
 
     /// Returns the view matrix, the matrix from world space to view space, with x to the right, y upwards and z backwards: right-handed
@@ -96,11 +97,10 @@ impl<V: Vector> Frame<V> {
     pub fn view_matrix(&self) -> V::Mat4 {
         let rows = [self.u, self.v, self.w].map(|axis| axis.extend(negated_dot(axis, self.eye)));
         let [x, y, z] = rows;
-        V::mat4_from_f64(DMat4::from_cols(x, y, z, DVec4::W).transpose())
+        V::Mat4::from_f64(DMat4::from_cols(x, y, z, DVec4::W).transpose())
     }
 
-    fn read(matrix: &V::Mat4, forward: Forward) -> Result<Self, CameraError> {
-        let matrix = V::mat4_to_f64(*matrix);
+    fn read(matrix: DMat4, forward: Forward) -> Result<Self, CameraError> {
         if !matrix.is_finite() {
             return Err(CameraError::NotFinite(CameraArgument::ViewMatrix));
         }
@@ -133,7 +133,7 @@ impl<V: Vector> Frame<V> {
 }
 
 impl<V: Vector> Camera<V> {
-    /// Creates the camera of a renderer that has a view matrix and a projection matrix, for picking or for rendering the same image.
+    /// Creates the camera of a renderer that has a view matrix and a projection matrix (`Mat4`, or for `DVec3` `DMat4`), for picking or for rendering the same image.
     ///
     /// The rays come from the numbers of the two matrices directly. They are more accurate than those of
     /// `(projection_matrix * view_matrix).inverse()`, above all far from the world's origin and where the far plane is at infinity.
@@ -182,7 +182,10 @@ impl<V: Vector> Camera<V> {
     /// most by which a product of two rows is off from 0, or of a row with itself from 1, the direction of an eye ray is within 2 ε of
     /// its length from the direction in which the two matrices unproject the pixel, beside the errors that [`Camera`] states and that of
     /// the view rectangle. The origin of an orthographic ray is within 2 ε of the length of (u, v), likewise. glam's `look_to_mat4`
-    /// has an ε below 2⁻²¹ in `f32` and 2⁻⁵⁰ in `f64`.
+    /// has an ε below 32 ulp of 1 where up is at least 6° from the direction of view.
+    ///
+    /// A camera that is made from the matrices of another one has its eye within 4 u |e| of the other's, and its basis within 5 u, where u
+    /// is half an ulp of 1: 2⁻²⁴ in `f32`, 2⁻⁵³ in `f64`.
     ///
     /// `cargo test --test camera unprojection` compares with exact arithmetic, also 10⁷ from the world's origin.
     ///
@@ -192,17 +195,17 @@ impl<V: Vector> Camera<V> {
     /// [`Frame::from_view_matrix`] says, or if the projection matrix is none of the above: its last row is that of none, it is flat, it
     /// mirrors the image from left to right, or its x or y is not a scale and an offset.
     #[doc(alias("view_projection", "unproject", "inverse_projection", "intrinsics"))]
-    pub fn from_matrices(
-        view_matrix: &V::Mat4,
-        projection_matrix: &V::Mat4,
+    pub fn from_matrices<M: Matrix<Vector = V>>(
+        view_matrix: &M,
+        projection_matrix: &M,
     ) -> Result<Self, CameraError> {
-        let matrix = V::mat4_to_f64(*projection_matrix);
+        let matrix = projection_matrix.to_f64();
         let not_finite = CameraError::NotFinite(CameraArgument::ProjectionMatrix);
         if !matrix.is_finite() {
             return Err(not_finite);
         }
         let (forward, projection) = kind(&matrix).ok_or(CameraError::ProjectionMatrixUnknown)?;
-        let frame = Frame::read(view_matrix, forward)?;
+        let frame = Frame::read(view_matrix.to_f64(), forward)?;
         let [left, right] = ends(matrix.row(0), 0, forward, projection)?;
         let [bottom, top] = ends(matrix.row(1), 1, forward, projection)?;
         // Where y is downwards in clip space, the bottom is at 1.
