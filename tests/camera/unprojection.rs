@@ -1,7 +1,7 @@
 //! Cameras from glam's own view and projection matrices against unprojection by exact arithmetic, also far from the world's origin;
 //! and the way back.
 
-use eyeray::{Camera, Frame, Scalar, Vector, ViewRect};
+use eyeray::{Camera, Frame, Scalar, ViewRect};
 use glam::{DMat4, DVec2, DVec3, Vec3, dvec2};
 use proptest::prelude::*;
 
