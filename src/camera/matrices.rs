@@ -109,11 +109,11 @@ impl<V: Vector> Frame<V> {
         }
         let rows = [0, 1, 2].map(|row| matrix.row(row).truncate());
         let [x, y, z] = rows;
-        // Also true where a product overflows.
-        let is_off = |product: f64, wanted: f64| !((product - wanted).abs() <= RIGID);
+        let is_off = |product: f64, wanted: f64| (product - wanted).abs() > RIGID;
         if rows.iter().any(|row| is_off(row.length_squared(), 1.0)) {
             return Err(CameraError::ViewMatrixScales);
         }
+        // Of rows of length 1, no product overflows.
         if is_off(x.dot(y), 0.0) || is_off(y.dot(z), 0.0) || is_off(z.dot(x), 0.0) {
             return Err(CameraError::ViewMatrixShears);
         }
@@ -270,10 +270,10 @@ impl<V: Vector> Camera<V> {
     /// # use glam::camera::lh::proj::directx;
     /// # use glam::{Mat4, Vec3, vec3};
     /// # fn main() -> Result<(), eyeray::CameraError> {
-    /// # let view = ViewRect::centered(4.0, 3.0);
+    /// # let view = ViewRect::centered(4.0, 2.0);
     /// # let camera = Camera::perspective(vec3(0.0, 0.0, 5.0), Vec3::ZERO, Vec3::Y, view, 1.0)?;
     /// # let (near, far) = (0.125, 100.0);
-    /// # let [l, r, b, t] = [-0.25, 0.25, -0.1875, 0.1875];
+    /// # let [l, r, b, t] = [-0.25, 0.25, -0.125, 0.125];
     /// let view_matrix = Mat4::from_scale(vec3(1.0, 1.0, -1.0)) * camera.view_matrix();
     /// let projection_matrix = directx::frustum(l, r, b, t, near, far);
     /// assert_eq!(Camera::from_matrices(&view_matrix, &projection_matrix)?, camera);

@@ -21,7 +21,7 @@ pub struct Tiles<V: Vector = glam::Vec3> {
     /// The tiles in a row of tiles.
     columns: u32,
     /// What is left of the tiles, counted row by row.
-    tiles: Range<u64>,
+    left: Range<u64>,
 }
 
 /// A tile of an image: a square part of it, less at the right and at the bottom edge. See [`Camera::tiles`].
@@ -39,8 +39,8 @@ impl<V: Vector> Tiles<V> {
     pub(super) fn new(camera: &Camera<V>, width: u32, height: u32, side: u32) -> Self {
         let side = side.max(1);
         let [columns, rows] = [width, height].map(|pixels| pixels.div_ceil(side));
-        let tiles = 0..u64::from(columns) * u64::from(rows);
-        Self { image: Image::new(camera, width, height), width, height, side, columns, tiles }
+        let left = 0..u64::from(columns) * u64::from(rows);
+        Self { image: Image::new(camera, width, height), width, height, side, columns, left }
     }
 
     /// The tile of that number. There must be one.
@@ -65,17 +65,17 @@ impl<V: Vector> Iterator for Tiles<V> {
 
     #[inline]
     fn next(&mut self) -> Option<Tile<V>> {
-        self.tiles.next().map(|index| self.tile(index))
+        self.left.next().map(|index| self.tile(index))
     }
 
     #[inline]
     fn nth(&mut self, n: usize) -> Option<Tile<V>> {
-        self.tiles.nth(n).map(|index| self.tile(index))
+        self.left.nth(n).map(|index| self.tile(index))
     }
 
     #[inline]
     fn size_hint(&self) -> (usize, Option<usize>) {
-        self.tiles.size_hint()
+        self.left.size_hint()
     }
 
     #[inline]
@@ -92,19 +92,19 @@ impl<V: Vector> Iterator for Tiles<V> {
 impl<V: Vector> DoubleEndedIterator for Tiles<V> {
     #[inline]
     fn next_back(&mut self) -> Option<Tile<V>> {
-        self.tiles.next_back().map(|index| self.tile(index))
+        self.left.next_back().map(|index| self.tile(index))
     }
 
     #[inline]
     fn nth_back(&mut self, n: usize) -> Option<Tile<V>> {
-        self.tiles.nth_back(n).map(|index| self.tile(index))
+        self.left.nth_back(n).map(|index| self.tile(index))
     }
 }
 
 impl<V: Vector> ExactSizeIterator for Tiles<V> {
     #[inline]
     fn len(&self) -> usize {
-        self.tiles.size_hint().0
+        self.left.size_hint().0
     }
 }
 
