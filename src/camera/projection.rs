@@ -10,12 +10,14 @@
 //!     pixel           x = (u - left) / (right - left) · width      y = (top - v) / (top - bottom) · height
 //! ```
 //!
-//! The second part is computed with exponents of any size, because u, or a quotient on the way to it, may be beyond the largest or
-//! below the smallest `f64` where what comes out is not.
+//! Where u, or a quotient on the way to it, may be beyond the largest or below the smallest `f64` and what comes out is not, the
+//! exponents are of any size. The bits are the same otherwise.
+
+use core::ops::{Div, Mul, Sub};
 
 use glam::{DVec2, DVec3};
 
-use super::{Camera, Frame, Projection};
+use super::{Camera, Frame, Projection, ViewRect};
 use crate::arithmetic::float::Float;
 use crate::arithmetic::scaling::{exponent, scale};
 use crate::{Scalar, Vector};
@@ -59,26 +61,21 @@ impl<V: Vector> Frame<V> {
 }
 
 impl<V: Vector> Camera<V> {
-    /// The point (u, v) of the view plane whose eye ray reaches the point.
-    fn project_to_view_plane(&self, point: V) -> Option<[Float; 2]> {
+    /// The point as seen from the eye, if an eye ray reaches it: if it is ahead.
+    fn see_ahead(&self, point: V) -> Option<Seen> {
         let point = point.to_f64();
-        if !point.is_finite() {
-            return None;
-        }
-        let Seen { in_plane, depth, unit } = self.frame.see(point);
-        // No ray reaches what is not ahead of the eye.
-        (depth > 0.0).then(|| match self.projection {
-            Projection::Orthographic => in_plane.to_array().map(|along| float(along, unit)),
-            Projection::Perspective { distance } => {
-                let (depth, distance) = (float(depth, 0), float(distance, 0));
-                in_plane.to_array().map(|along| float(along, 0) / depth * distance)
-            }
-        })
+        let seen = self.frame.see(point);
+        (point.is_finite() && seen.depth > 0.0).then_some(seen)
     }
 
-    /// The same, rounded to `f64`: infinite where that overflows.
+    /// The point (u, v) of the view plane whose eye ray reaches the point, rounded to `f64`: infinite where that overflows.
     pub(super) fn project_in_f64(&self, point: V) -> Option<DVec2> {
-        self.project_to_view_plane(point).map(rounded)
+        let seen = self.see_ahead(point)?;
+        Some(if self.is_moderate(&seen) {
+            self.to_view_plane(&seen, |x| x).into()
+        } else {
+            rounded(self.to_view_plane_of_any_exponent(&seen))
+        })
     }
 
     /// The pixel of that point of the view plane, likewise.
@@ -88,15 +85,80 @@ impl<V: Vector> Camera<V> {
         width: u32,
         height: u32,
     ) -> Option<DVec2> {
-        let [u, v] = self.project_to_view_plane(point)?;
-        // Of the view in f64: rounded to the precision of V, its sides would move by a part of a pixel.
-        let [left, top] = [self.view.left, self.view.top].map(|side| float(side, 0));
-        let pixels = |along: Float, side: f64, pixels: u32| {
-            along / float(side, 0) * float(f64::from(pixels.max(1)), 0)
+        let seen = self.see_ahead(point)?;
+        let size = [width, height].map(|pixels| f64::from(pixels.max(1)));
+        Some(if self.is_moderate(&seen) {
+            self.to_image(self.to_view_plane(&seen, |x| x), size, |x| x).into()
+        } else {
+            rounded(self.to_image(self.to_view_plane_of_any_exponent(&seen), size, float))
+        })
+    }
+
+    #[cold]
+    fn to_view_plane_of_any_exponent(&self, seen: &Seen) -> [Float; 2] {
+        let unit = match self.projection {
+            Projection::Orthographic => seen.unit,
+            // In a quotient, the unit is no matter.
+            Projection::Perspective { .. } => 0,
         };
-        let x = pixels(u - left, self.view.width(), width);
-        let y = pixels(top - v, self.view.height(), height);
-        Some(rounded([x, y]))
+        let in_units = |along: Float| Float { exponent: along.exponent + unit, ..along };
+        self.to_view_plane(seen, float).map(in_units)
+    }
+
+    /// The point of the view plane, in such numbers, and for an orthographic camera in the unit of what is seen.
+    #[inline]
+    fn to_view_plane<N: Number>(&self, seen: &Seen, number: impl Fn(f64) -> N) -> [N; 2] {
+        let in_plane = seen.in_plane.to_array().map(&number);
+        match self.projection {
+            Projection::Orthographic => in_plane,
+            Projection::Perspective { distance } => {
+                in_plane.map(|along| along / number(seen.depth) * number(distance))
+            }
+        }
+    }
+
+    /// The pixel of a point of the view plane.
+    #[inline]
+    fn to_image<N: Number>(
+        &self,
+        [u, v]: [N; 2],
+        [width, height]: [f64; 2],
+        number: impl Fn(f64) -> N,
+    ) -> [N; 2] {
+        // Of the view in f64: rounded to the precision of V, its sides would move by a part of a pixel.
+        let view = &self.view;
+        [
+            (u - number(view.left)) / number(view.width()) * number(width),
+            (number(view.top) - v) / number(view.height()) * number(height),
+        ]
+    }
+
+    /// Whether no result is beyond the range of `f64`, nor any on the way to it.
+    ///
+    /// Of numbers of 2⁻²⁰⁰ to 2²⁰⁰, the products and quotients of three are 2⁻⁶⁰⁰ to 2⁶⁰⁰. A difference from another is 0 or at least
+    /// an ulp, and once more divided and multiplied, it stays within 2⁻⁸⁵³ and 2⁸³³.
+    #[inline]
+    fn is_moderate(&self, seen: &Seen) -> bool {
+        const LEAST: f64 = f64::from_bits((1023 - 200) << 52);
+        const LARGEST: f64 = f64::from_bits((1023 + 200) << 52);
+        let is_moderate = |x: f64| x == 0.0 || (LEAST..LARGEST).contains(&x.abs());
+        let Seen { in_plane, depth, unit } = *seen;
+        let ViewRect { left, right: _, bottom: _, top } = self.view;
+        let distance = match self.projection {
+            Projection::Orthographic => 1.0,
+            Projection::Perspective { distance } => distance,
+        };
+        let numbers = [
+            in_plane.x,
+            in_plane.y,
+            depth,
+            distance,
+            left,
+            top,
+            self.view.width(),
+            self.view.height(),
+        ];
+        unit == 0 && numbers.into_iter().all(is_moderate)
     }
 
     pub(super) fn depth_of(&self, point: V) -> V::Scalar {
@@ -110,10 +172,16 @@ fn largest(vector: DVec3) -> f64 {
     vector.abs().max_element()
 }
 
-/// A finite number of units of 2^`unit`, with a value near 1, from which a few operations do not leave the range.
-fn float(value: f64, unit: i32) -> Float {
+/// What a projection does with numbers.
+trait Number: Copy + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {}
+
+impl Number for f64 {}
+impl Number for Float {}
+
+/// A finite number, with a value near 1, from which a few operations do not leave the range.
+fn float(value: f64) -> Float {
     let exponent = exponent(value);
-    Float { value: scale(value, -exponent), exponent: exponent + unit }
+    Float { value: scale(value, -exponent), exponent }
 }
 
 fn rounded(pair: [Float; 2]) -> DVec2 {

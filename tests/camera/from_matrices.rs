@@ -89,11 +89,20 @@ fn an_orthographic_camera_looks_to_where_it_sees() -> Result<(), CameraError> {
         }
     }
     // As far behind the eye as before it, as in 2D, there is no telling: right-handed.
-    for far in [1.0, 999.0, 1000.0, 1e7, 0.3] {
+    // Of many far planes, because few leave a depth that is not quite 1/2.
+    for far in (1..=2000_u16).map(|tenths| f32::from(tenths) / 10.0) {
         for function in [right_handed[0], right_handed[1], left_handed[1]] {
             assert_eq!(orthographic(function, -far, far)?.basis()[2], Vec3::Z, "{far}");
         }
         assert_eq!(orthographic(directx::orthographic, far, -far)?.basis()[2], Vec3::Z, "{far}");
+    }
+    // However the middle was rounded.
+    for (near, far) in [(-10.0, 10.0), (10.0, -10.0)] {
+        for bits in -2..=2 {
+            let mut matrix = directx::orthographic(-4.0, 4.0, -3.0, 3.0, near, far);
+            matrix.w_axis.z = f32::from_bits(0.5_f32.to_bits().wrapping_add_signed(bits));
+            assert_eq!(camera(Mat4::IDENTITY, matrix)?.basis()[2], Vec3::Z, "{near} {far} {bits}");
+        }
     }
     // Where there are no depths: likewise.
     let mut flat = directx::orthographic(-4.0, 4.0, -3.0, 3.0, 0.0, 1.0);
