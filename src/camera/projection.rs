@@ -135,8 +135,8 @@ impl<V: Vector> Camera<V> {
 
     /// Whether no result is beyond the range of `f64`, nor any on the way to it.
     ///
-    /// Of numbers of 2⁻²⁰⁰ to 2²⁰⁰, the products and quotients of three are 2⁻⁶⁰⁰ to 2⁶⁰⁰. A difference from another is 0 or at least
-    /// an ulp, and once more divided and multiplied, it stays within 2⁻⁸⁵³ and 2⁸³³.
+    /// Of numbers of 2⁻²⁰⁰ to 2²⁰⁰, the products and quotients of three are 2⁻⁶⁰⁰ to 2⁶⁰⁰. A difference from another is 0 or at
+    /// least an ulp, and once more divided and multiplied, it stays within 2⁻⁸⁵³ and 2⁸³³.
     #[inline]
     fn is_moderate(&self, seen: &Seen) -> bool {
         const LEAST: f64 = f64::from_bits((1023 - 200) << 52);
