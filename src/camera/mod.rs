@@ -368,8 +368,8 @@ impl<V: Vector> Camera<V> {
     /// Returns the eye ray through a point of an image of `width` by `height` pixels that shows the view rectangle.
     ///
     /// The point (x, y) is given in pixels, rightwards and downwards from the top left corner of the image: the center of the
-    /// first pixel is (0.5, 0.5), and the bottom right corner is (`width`, `height`). In the view plane it is `u = left + (right
-    /// - left) x / width` and `v = top - (top - bottom) y / height`.
+    /// first pixel is (0.5, 0.5), and the bottom right corner is (`width`, `height`). In the view plane it is
+    /// `u = left + (right - left) x / width` and `v = top - (top - bottom) y / height`.
     ///
     /// The point may be anywhere inside a pixel, for antialiasing, or outside the image. A `width` or `height` of 0 counts as 1.
     /// If x or y is NaN or infinite, the ray is not finite, and hits nothing.
