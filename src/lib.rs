@@ -124,7 +124,7 @@ mod vector;
 pub use glam;
 
 pub use algebraic::Algebraic;
-pub use camera::{Camera, CameraArgument, CameraError, Frame, Rays, ViewRect};
+pub use camera::{Camera, CameraArgument, CameraError, Frame, Rays, Tile, Tiles, ViewRect};
 pub use geometric::Geometric;
 pub use hit::Hit;
 pub use hittable::{Hittable, nearest};

@@ -51,6 +51,8 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 ///    back along the ray.
 /// 7. A ray of [`Hit::spawn`] never hits the surface that it leaves, if the radius is at least 1,000 ulp of the coordinates of the
 ///    point. It starts no farther from it than stated at [`spawn`](Hit::spawn).
+/// 8. Of many spheres, the one returned is that whose exact root is least among those accepted by point 5, also where distances round
+///    to the same number; of equal exact roots, the one of the lowest index: [`nearest`](crate::nearest) tells among what.
 ///
 /// # How
 ///
@@ -93,6 +95,28 @@ impl<V: Vector> Sphere<V> {
     /// ```
     pub fn bounds(&self) -> (V, V) {
         V::perform(Bounds(self))
+    }
+
+    /// Returns both roots along the whole line, ascending, behind the origin too. `None` where the line misses.
+    ///
+    /// Use this one: it takes the faster of the two derivations. [`roots_algebraic`](Self::roots_algebraic) and
+    /// [`roots_geometric`](Self::roots_geometric) return the same, bit for bit, and are for comparing them.
+    ///
+    /// ```
+    /// use eyeray::{Ray, Sphere};
+    /// use glam::Vec3;
+    ///
+    /// let sphere = Sphere::new(Vec3::ZERO, 1.0);
+    /// let ray = Ray::new(Vec3::Z * 3.0, Vec3::NEG_Z);
+    /// assert_eq!(sphere.roots(&ray), Some([2.0, 4.0]));
+    ///
+    /// // A ray starts inside a sphere if and only if its roots lie on either side of 0.
+    /// let is_inside = |[near, far]: [f32; 2]| near < 0.0 && 0.0 < far;
+    /// assert_eq!(sphere.roots(&ray).map(is_inside), Some(false));
+    /// ```
+    #[inline(always)]
+    pub fn roots(&self, ray: &Ray<V>) -> Option<[V::Scalar; 2]> {
+        self.roots_by::<Quadratic>(ray)
     }
 
     /// Returns both roots along the whole line, ascending, behind the origin too, by the quadratic formula: see
@@ -155,6 +179,11 @@ impl<V: Vector> Hittable<V> for Sphere<V> {
     #[inline(always)]
     fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         rejection::may_hit(self, ray, range.end)
+    }
+
+    #[inline(always)]
+    fn as_sphere(&self) -> Option<Sphere<V>> {
+        Some(*self)
     }
 
     #[inline(always)]

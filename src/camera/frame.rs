@@ -12,7 +12,8 @@ use crate::{CameraArgument, CameraError, Vector, ViewRect};
 
 /// A camera frame: the position of a camera, the eye e, and its orientation, an orthonormal basis.
 ///
-/// U points to the right of the image, V up, and W backwards, against the direction of view. A [`Camera`] is a frame with a view
+/// U points to the right of the image, V up, and W backwards, against the direction of view. U × V is W, except in the frame of a
+/// view matrix that is left-handed or mirrors, where it is -W. A [`Camera`] is a frame with a view
 /// rectangle and a projection. Frames create cameras, and [`Camera::frame`] returns the frame without losing a digit.
 ///
 /// ```

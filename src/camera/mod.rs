@@ -14,16 +14,22 @@
 //! | `basis` | U, V and W from the direction of view and the up vector |
 //! | `view_rect` | the view rectangle |
 //! | `pixels` | from a pixel to (u, v) |
+//! | `image` | the rays of an image's pixels |
 //! | `rays` | an iterator over the rays of all pixels |
+//! | `tiles` | an iterator over the tiles of an image |
+//! | `matrices` | from view and projection matrices, and to view matrices |
 //! | `projection` | from a point of the scene to (u, v) |
 //! | `error` | the error type |
 
 mod basis;
 mod error;
 mod frame;
+mod image;
+mod matrices;
 mod pixels;
 mod projection;
 mod rays;
+mod tiles;
 mod view_rect;
 
 use glam::{DVec2, DVec3};
@@ -31,6 +37,7 @@ use glam::{DVec2, DVec3};
 pub use error::{CameraArgument, CameraError};
 pub use frame::Frame;
 pub use rays::Rays;
+pub use tiles::{Tile, Tiles};
 pub use view_rect::ViewRect;
 
 use crate::{Ray, Scalar, Vector};
@@ -78,8 +85,8 @@ use pixels::Axis;
 /// # }
 /// ```
 ///
-/// The three constructors take a target to look at. For a direction of view, or for several cameras with the same frame, start
-/// with a [`Frame`].
+/// The first three constructors take a target to look at. For a direction of view, or for several cameras with the same frame, start
+/// with a [`Frame`]. [`from_matrices`](Self::from_matrices) takes the view and the projection matrix of a renderer.
 ///
 /// # Depth of field
 ///
@@ -123,6 +130,24 @@ use pixels::Axis;
 /// # }
 /// ```
 ///
+/// # Logical pixels
+///
+/// The position of a mouse is often given in logical pixels, and the size of the window, too, which then need not be a whole number.
+/// The position divided by the size is a pixel of an image of 1 by 1:
+///
+/// ```
+/// # use eyeray::{Camera, CameraError, ViewRect};
+/// # use glam::{Vec3, vec2};
+/// # fn main() -> Result<(), CameraError> {
+/// # let view = ViewRect::centered(4.0, 3.0);
+/// # let camera = Camera::perspective(Vec3::Z, Vec3::ZERO, Vec3::Y, view, 1.0)?;
+/// let (cursor, size) = (vec2(266.75, 600.25), vec2(1067.0, 800.333_3));
+/// let ray = camera.pixel_ray(cursor / size, 1, 1);
+/// # assert!((ray.direction - camera.ray(vec2(-1.0, -0.75)).direction).length() < 1e-6);
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Which precision
 ///
 /// `f32` is precise enough within some thousand times the size of the scene's smallest detail from the world's origin. There is no
@@ -141,6 +166,9 @@ use pixels::Axis;
 ///   2⁻⁵⁰ (|e| + |u| + |v|). The second term shows only where the three cancel to 2⁻²⁷ of that.
 /// - With [`DVec3`](glam::DVec3) the direction is within 7 ulp of its length, and the origin within
 ///   6 · 2⁻⁵³ (|e| + |u| + |v|).
+///
+/// A sum or a product that leaves the range of `f64` on the way is outside of these bounds: with `DVec3`, a pixel narrower than
+/// 2⁻⁹⁰⁰, or a coordinate beyond 2¹⁰²⁰.
 ///
 /// For `pixel_ray` this holds in images of up to 2²⁴ pixels a side and as far around them, where the direction, or
 /// |e| + |u| + |v|, is at least an eighth of a pixel long. At the center of a pixel it holds however short they are, so that the
@@ -408,6 +436,46 @@ impl<V: Vector> Camera<V> {
         Rays::new(self, width, height)
     }
 
+    /// Returns an iterator over the tiles of an image of `width` by `height` pixels: squares of `side` by `side` pixels, row by row
+    /// from the top, each row from the left.
+    ///
+    /// Tiles are used to ask a collection of spheres for the hits of many rays at once, which takes less time where the rays lie
+    /// together, and to share an image among threads. At the right and at the bottom edge of the image, tiles have the pixels that are
+    /// left. A `side` of 0 counts as 1.
+    ///
+    /// A side of 8 gives 64 rays a tile. In larger tiles, too, every 64 rays lie together: see [`Tile::pixels`].
+    ///
+    /// ```
+    /// use eyeray::{Camera, Hittable, Ray, Sphere};
+    /// use glam::Vec3;
+    ///
+    /// # fn main() -> Result<(), eyeray::CameraError> {
+    /// let (width, height) = (20, 12);
+    /// let camera = Camera::perspective_fov(Vec3::Z * 3.0, Vec3::ZERO, Vec3::Y, 0.9, 5.0 / 3.0)?;
+    /// let sphere = Sphere::new(Vec3::ZERO, 1.0);
+    ///
+    /// let mut depths = vec![f32::INFINITY; 20 * 12];
+    /// let mut rays = [Ray::default(); 64];
+    /// for tile in camera.tiles(width, height, 8) {
+    ///     let count = tile.rays().len();
+    ///     for (place, ray) in rays.iter_mut().zip(tile.rays()) {
+    ///         *place = ray;
+    ///     }
+    ///     for ((x, y), ray) in tile.pixels().zip(&rays[..count]) {
+    ///         if let Some(hit) = sphere.intersect(ray, 0.0..f32::INFINITY) {
+    ///             depths[(y * width + x) as usize] = hit.t;
+    ///         }
+    ///     }
+    /// }
+    /// assert!(depths[6 * 20 + 10] < 3.0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[inline]
+    pub fn tiles(&self, width: u32, height: u32, side: u32) -> Tiles<V> {
+        Tiles::new(self, width, height, side)
+    }
+
     /// Returns the point (u, v) of the view plane whose eye ray reaches `point`: the inverse of [`ray`](Self::ray).
     ///
     /// Returns `None` if no eye ray reaches the point:
@@ -461,12 +529,7 @@ impl<V: Vector> Camera<V> {
     #[must_use]
     #[doc(alias("world_to_screen", "world_to_viewport", "world_to_pixel"))]
     pub fn project_to_pixel(&self, point: V, width: u32, height: u32) -> Option<V::Vec2> {
-        let DVec2 { x: u, y: v } = self.project_in_f64(point)?;
-        let view = &self.view;
-        // Of the view in f64: rounded to the precision of V, its sides would move by a part of a pixel.
-        let x = (u - view.left) / view.width() * f64::from(width.max(1));
-        let y = (view.top - v) / view.height() * f64::from(height.max(1));
-        finite::<V>(DVec2::new(x, y))
+        finite::<V>(self.project_to_pixel_in_f64(point, width, height)?)
     }
 
     /// Returns the depth of a point: its distance ahead of the eye along -W, in the units of the scene.

@@ -6,7 +6,7 @@ use core::ops::Range;
 use glam::DVec3;
 
 use super::Camera;
-use super::pixels::Axis;
+use super::image::Image;
 use crate::{Ray, Vector};
 
 /// An iterator over the rays of an image, row by row: see [`Camera::rays`].
@@ -16,10 +16,7 @@ use crate::{Ray, Vector};
 #[derive(Clone, Debug)]
 #[must_use = "iterators are lazy and do nothing unless consumed"]
 pub struct Rays<V: Vector = glam::Vec3> {
-    camera: Camera<V>,
-    common: V,
-    columns: Axis,
-    rows: Axis,
+    image: Image<V>,
     width: u32,
     /// What is left of the pixels, counted row by row.
     pixels: Range<u64>,
@@ -32,12 +29,8 @@ pub struct Rays<V: Vector = glam::Vec3> {
 impl<V: Vector> Rays<V> {
     #[inline]
     pub(super) fn new(camera: &Camera<V>, width: u32, height: u32) -> Self {
-        let [columns, rows] = camera.axes(width, height);
         let mut rays = Self {
-            camera: *camera,
-            common: camera.common(),
-            columns,
-            rows,
+            image: Image::new(camera, width, height),
             width,
             pixels: 0..u64::from(width) * u64::from(height),
             column: 0,
@@ -53,19 +46,7 @@ impl<V: Vector> Rays<V> {
     fn begin_row(&mut self, row: u32) {
         self.column = 0;
         self.row = row;
-        self.in_row = self.row_of_rays(row);
-    }
-
-    /// What the rays of a row have in common.
-    #[inline]
-    fn row_of_rays(&self, row: u32) -> DVec3 {
-        self.camera.row(self.rows.at(f64::from(row) + 0.5))
-    }
-
-    /// The ray of a column in such a row.
-    #[inline]
-    fn ray(&self, column: u32, in_row: DVec3) -> Ray<V> {
-        self.camera.ray_in_row(self.common, in_row, self.columns.at_center(f64::from(column) + 0.5))
+        self.in_row = self.image.row(row);
     }
 
     /// The column and the row of a pixel. There must be one.
@@ -79,7 +60,7 @@ impl<V: Vector> Rays<V> {
     /// The ray of a pixel, wherever it is.
     fn ray_of(&self, index: u64) -> Ray<V> {
         let (column, row) = self.place(index);
-        self.ray(column, self.row_of_rays(row))
+        self.image.ray(column, self.image.row(row))
     }
 }
 
@@ -92,7 +73,7 @@ impl<V: Vector> Iterator for Rays<V> {
         if self.column == self.width {
             self.begin_row(self.row + 1);
         }
-        let ray = self.ray(self.column, self.in_row);
+        let ray = self.image.ray(self.column, self.in_row);
         self.column += 1;
         Some(ray)
     }
@@ -102,7 +83,7 @@ impl<V: Vector> Iterator for Rays<V> {
         let (column, row) = self.place(index);
         self.begin_row(row);
         self.column = column + 1;
-        Some(self.ray(column, self.in_row))
+        Some(self.image.ray(column, self.in_row))
     }
 
     #[inline]

@@ -50,7 +50,6 @@ mod halves;
 mod in_f32;
 mod in_f64;
 mod integers;
-#[allow(dead_code, reason = "until slices ask it")]
 pub(crate) mod order;
 mod pairs;
 mod plain;
@@ -67,6 +66,8 @@ use crossing::{Answer, Found, Line, Question, Verdict};
 use format::Format;
 use integers::Exact;
 
+#[cfg(test)]
+mod any_exponent;
 #[cfg(test)]
 mod tests;
 

@@ -4,6 +4,8 @@
 mod filter;
 mod hierarchy;
 mod lanes;
+mod local;
+mod middle;
 mod scan;
 #[cfg(feature = "serde")]
 mod serialize;
