@@ -23,8 +23,8 @@ reach_of_rounded = (entry - (c - p) + moved) / (r * (1 + m1) * (1 + m2) * by * u
 { |r1| <= 1b-24 /\ |c1| <= 1b-24 /\ |p1| <= 1b-24 /\ |n1| <= 1b-24 /\ |f1| <= 1b-24 /\ |m1| <= 1b-24 /\ |m2| <= 1b-24
 /\ |c| <= 1 /\ |p| <= 1 /\ |x| <= 1 /\ |y| <= 1 /\ |z| <= 1
 ->
-   reach <= 11 # MARGIN, in u
-/\ reach_of_rounded <= 14.125
+   reach <= 11
+/\ reach_of_rounded <= 14.125 # MARGIN, in u
 }
 
 entry - (c - p) -> c * (r * (1 + c1) * (1 + f1) - 1) - p * (r * (1 + p1) * (1 + n1) * (1 + f1) - 1);

@@ -1,4 +1,4 @@
-#@ -Eprecision=512 -Eno-auto-dichotomy
+#@ -Eprecision=256 -Eno-auto-dichotomy
 # The closest approach of a moved origin, src/root/pairs.rs. Directions are divided by √a: so a = |d| = 1 and P = |o|. R is the larger
 # of |w| and r. Each e is the error of one rounding, at most u = 2⁻⁵³, and v = u².
 #

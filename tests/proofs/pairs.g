@@ -1,4 +1,4 @@
-#@ -Eprecision=512 -Eno-auto-dichotomy
+#@ -Eprecision=256 -Eno-auto-dichotomy
 # A root of a moved origin, src/root/pairs.rs. Directions are divided by √a: so a = |d| = 1. Each e is the error of one rounding, at
 # most u = 2⁻⁵³, and v = u².
 #
@@ -9,6 +9,7 @@
 # - A power in pairs errs by 40 v |w|² (`surface`), and by 2 |w| times what w errs by. The slope w·d is at least 63/64 s, and τ is half
 #   of the power over the slope.
 # - Cauchy and Schwarz: the |wᵢ dᵢ| add up to at most |w|.
+# - (1 + y f) / (1 + y) is 1 + (f - 1) y / (1 + y).
 # - All are sums of a multiple of r and of one of √m, with the coefficients below.
 u = 1b-53;
 v = 1b-106;
@@ -30,7 +31,7 @@ slope = 65 / 64 / (63 / 64) * x6 * ((1 + l1) * (1 + l2) * (1 + l3) * (1 + l4) - 
 q = (1 + q1) * (1 + q2) * (1 + q3);
 of_y = (1 + a1) * (1 + a2) * (1 + a3) * (1 + a4) * (1 + a5) * (1 + a6) * q * (1 + q2);
 after = (1 + t1) * (1 + t2) * (1 + t3) * (1 + t4) * (1 + t5);
-correction = (q * (1 + y * of_y) * after / (1 + y) - 1) / (u * slack);
+correction = (q * after - 1 + q * after * y / (1 + y) * (of_y - 1)) / (u * slack);
 
 { |x1| <= 1 /\ |x2| <= 1 /\ |x3| <= 1 /\ |x4| <= 1 /\ |x5| <= 1 /\ |x6| <= 1 /\ |l1| <= 1b-53 /\ |l2| <= 1b-53 /\ |l3| <= 1b-53
 /\ |l4| <= 1b-53 /\ |q1| <= 1b-53 /\ |q2| <= 1b-53 /\ |q3| <= 1b-53 /\ |a1| <= 1b-53 /\ |a2| <= 1b-53 /\ |a3| <= 1b-53
@@ -44,5 +45,3 @@ correction = (q * (1 + y * of_y) * after / (1 + y) - 1) / (u * slack);
 /\ |slope| <= 4.13 # SLOPE_ERROR, in u
 /\ |correction| <= 8.1 # CORRECTION_ERROR, in u
 }
-
-q * (1 + y * of_y) * after / (1 + y) - 1 -> (q * after - 1) + q * after * (y / (1 + y)) * (of_y - 1) { 1 + y <> 0 };

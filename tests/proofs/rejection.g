@@ -22,23 +22,23 @@ T8 = (1 + t1) * (1 + t2) * (1 + t3) * (1 + t4) * (1 + t5) * (1 + t6) * (1 + t7) 
 end4 = (1 + n1) * (1 + n2) * (1 + n3) * (1 + n4); # a 3, a product
 h_part = (1 + h1) * (1 + h2) * (1 + h3) * (1 + h4) - 1; # o, a product, 2 sums
 
-# What r² and T have to be made larger by, of numbers as given.
+# What r² and T have to be made larger by, of numbers as given. (48 u is the code's part of T.)
 of_radius = ((by6 + h_part * (1 + 48 * u) * T8 * end4) / radius3 - 1) / unit;
 of_T = (by6 / ((1 - 2 * h_part) * T8 * end4) - 1) / unit;
 
-# And of rounded ones.
+# And of rounded ones, for T half of it: it is made larger by twice the margin.
 linear = 2.25 * u * (1 + u) + 2.25 * u * 2.25 * u;
 at_center = ((1 + u) * (1 + u) + 2.25 * u * (1 + u)) / (1 - linear);
 of_rounded_radius = ((at_center * by6 + h_part * at_center * (1 + 48 * u) * T8 * end4) / radius3 - 1) / unit;
-of_rounded_T = ((by6 / (1 - linear)) / ((1 - 2 * h_part - h_part * linear / (1 - linear)) * T8 * end4) - 1) / unit;
+half_of_rounded_T = ((by6 / (1 - linear)) / ((1 - 2 * h_part - h_part * linear / (1 - linear)) * T8 * end4) - 1) / 2 / unit;
 
 { |e1| <= 1b-24 /\ |e2| <= 1b-24 /\ |e3| <= 1b-24 /\ |e4| <= 1b-24 /\ |e5| <= 1b-24 /\ |e6| <= 1b-24 /\ |r1| <= 1b-24
 /\ |r2| <= 1b-24 /\ |r3| <= 1b-24 /\ |t1| <= 1b-24 /\ |t2| <= 1b-24 /\ |t3| <= 1b-24 /\ |t4| <= 1b-24 /\ |t5| <= 1b-24
 /\ |t6| <= 1b-24 /\ |t7| <= 1b-24 /\ |t8| <= 1b-24 /\ |n1| <= 1b-24 /\ |n2| <= 1b-24 /\ |n3| <= 1b-24 /\ |n4| <= 1b-24
 /\ |h1| <= 1b-24 /\ |h2| <= 1b-24 /\ |h3| <= 1b-24 /\ |h4| <= 1b-24
 ->
-   of_radius <= 13 # MARGIN, in u
+   of_radius <= 13
 /\ of_T <= 26
-/\ of_rounded_radius <= 19.5
-/\ of_rounded_T <= 28.25
+/\ of_rounded_radius <= 19.5 # MARGIN, in u
+/\ half_of_rounded_T <= 14.125 # MARGIN, in u
 }
