@@ -1,12 +1,12 @@
 #@ -Eprecision=256 -Eno-auto-dichotomy
-# The boxes, src/spheres/hierarchy/boxes.rs, in f32: u = 2⁻²⁴. Lengths are divided by L, and t by L / d, where d is the component of
-# the direction with which the box is tested, above zero. Each e is the error of one operation, at most u.
+# The boxes, src/spheres/hierarchy/boxes.rs, in f32: u = 2⁻²⁴. Lengths are divided by L, and t by L / d, where d is the
+# component of the direction with which the box is tested, above zero. Each e is the error of one operation, at most u.
 #
 # By hand:
-# - A hit at t is beyond the near plane: c ≤ p + t d, all as given. There |t d| ≤ 2 and |t D| ≤ 2, because the hit and the origin are
-#   both within 1. Planes are rounded outwards, and that makes c only less.
-# - The origin p1 is off by u where it is rounded and by u / 8 where it was moved, the component by u d, and where it was below 2 u D, by
-#   no more than 2 u D: so c ≤ p1 + t d1 + (1 + 1/8) u x + 2 u y + 4 u z, and t ≥ c - p1 less these, in L / d1.
+# - A hit at t is beyond the near plane: c ≤ p + t d, all as given. There |t d| ≤ 2 and |t D| ≤ 2, because the hit and the
+#   origin are both within 1. Planes are rounded outwards, and that makes c only less.
+# - The origin p1 is off by u where it is rounded and by u / 8 where it was moved, the component by u d, and where it was below
+#   2 u D, by no more than 2 u D: so c ≤ p1 + t d1 + (1 + 1/8) u x + 2 u y + 4 u z, and t ≥ c - p1 less these, in L / d1.
 # - What is computed for a far plane is this of the near one, with the signs turned around.
 u = 1b-24;
 unit = 1b-24 * (1 + 1b-20); # u, and a part of 2⁻²⁰ for the squares of errors

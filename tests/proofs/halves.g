@@ -1,10 +1,10 @@
 #@ -Eprecision=256 -Eno-auto-dichotomy
-# The correction from halves, src/root/halves.rs. Lengths are divided by √m and directions by √a: so m = a = 1, 0 < r ≤ 1, |t| ≤ 2.
-# Each e is the error of one rounding, at most u = 2⁻⁵³.
+# The correction from halves, src/root/halves.rs. Lengths are divided by √m and directions by √a: so m = a = 1, 0 < r ≤ 1, |t| ≤
+# 2. Each e is the error of one rounding, at most u = 2⁻⁵³.
 #
 # By hand, as halves.rs has it:
-# - t.low is at most 2⁻²⁵ t, each coordinate of d.low, of o.low and of `rest` at most 2⁻²⁶, and all four are exact. A vector of three
-#   such coordinates is no longer than √3 of it, and if each is rounded by a part of itself, so is the vector.
+# - t.low is at most 2⁻²⁵ t, each coordinate of d.low, of o.low and of `rest` at most 2⁻²⁶, and all four are exact. A vector of
+#   three such coordinates is no longer than √3 of it, and if each is rounded by a part of itself, so is the vector.
 # - High parts and their products and sums are exact: what is rounded are w.low and the two products with low parts.
 # - Where a root is accepted, |w| = r but for 2⁻¹⁶ of it, r / s |t| < 2¹⁰, |τ| < 18 · 2⁻³⁷ |t|, and s > 2⁻¹⁷.
 # - Cauchy and Schwarz: the |wᵢ dᵢ| add up to at most |w|, and the |w.lowᵢ (w + w.high)ᵢ| to at most 2 |w.low| |w|.
@@ -22,7 +22,8 @@ v_low = vd * tl;
 v_w_low = (vrest + ((v_step * (1 + e1) + v_low * (1 + e2)) * (1 + e3) - vol * (1 + e4)) * (1 + e5)) * (1 + e6);
 v_error = v_w_low - (vrest + v_step + v_low - vol);
 
-# The residual over r: 2 w w.low in w, w + w.high, a product, 2 sums and the difference; r.low (r.low + 2 r.high) in 3 operations.
+# The residual over r: 2 w w.low in w, w + w.high, a product, 2 sums and the difference; r.low (r.low + 2 r.high) in 3
+# operations.
 products = 2 * C * v_w_low * ((1 + e1) * (1 + e2) * (1 + e3) * (1 + e4) * (1 + e5) * (1 + e6) - 1);
 square = 2 * rl * ((1 + e1) * (1 + e2) * (1 + e3) - 1);
 residual_error = (2 * C * v_error + products - square) / 2 / (1b-72 * slack);
@@ -32,7 +33,8 @@ slope_error = C * ((1 + e1) * (1 + e2) * (1 + e3) * (1 + e4) - 1) / (u * slack);
 # The root, over t: the residual's, with r / s |t| = 2¹⁰ g; the slope's and of 10 operations, and the term of third order, of τ.
 tau = 18 * 1b-37 * x;
 bend = tau * 262144 * y;
-root_error = (residual_error * 1b-72 * 1024 * g + tau * (slope_error * u * 131072 + 10 * u * z) + tau * bend * bend / 2) / 1b-62 / slack;
+of_tau = slope_error * u * 131072 + 10 * u * z + bend * bend / 2;
+root_error = (residual_error * 1b-72 * 1024 * g + tau * of_tau) / 1b-62 / slack;
 
 { |e1| <= 1b-53 /\ |e2| <= 1b-53 /\ |e3| <= 1b-53 /\ |e4| <= 1b-53 /\ |e5| <= 1b-53 /\ |e6| <= 1b-53 /\ |th| <= 2 /\ |tl| <= 1b-24
 /\ |d| <= 1 /\ |dl| <= 1b-26 /\ |ol| <= 1b-26 /\ |rest| <= 1b-26 /\ |vd| <= 1 /\ |vdl| <= 2.58096e-8 /\ |vol| <= 2.58096e-8

@@ -1,15 +1,16 @@
 #@ -Eprecision=256 -Eno-auto-dichotomy
-# The closest approach of a moved origin, src/root/pairs.rs. Directions are divided by √a: so a = |d| = 1 and P = |o|. R is the larger
-# of |w| and r. Each e is the error of one rounding, at most u = 2⁻⁵³, and v = u².
+# The closest approach of a moved origin, src/root/pairs.rs. Directions are divided by √a: so a = |d| = 1 and P = |o|. R is the
+# larger of |w| and r. Each e is the error of one rounding, at most u = 2⁻⁵³, and v = u².
 #
 # By hand:
-# - w is exact but for two additions of low parts. They are rounded by v |w| and 4 u v (|t d| + |o|), where |t d| ≤ |o|: pairs.rs.
-# - Cauchy and Schwarz: the |wᵢ dᵢ| add up to at most R. Of a compensated dot product 8 v R are off (`arithmetic::pair`), and the plain
-#   one, and so its low part, by u for products and 2 u for sums. A low part of w is at most u |w|.
+# - w is exact but for two additions of low parts. They are rounded by v |w| and 4 u v (|t d| + |o|), where |t d| ≤ |o|:
+#   pairs.rs.
+# - Cauchy and Schwarz: the |wᵢ dᵢ| add up to at most R. Of a compensated dot product 8 v R are off (`arithmetic::pair`), and
+#   the plain one, and so its low part, by u for products and 2 u for sums. A low part of w is at most u |w|.
 # - w·d is t a - h. There h errs by 4 u P, as in plain.g, and h / a by 4 u of it: w·d = P Z.
 # - A power in pairs errs by 40 v R² (`surface`), and by 2 R times what w errs by.
-# - The power is exactly P² Z² - D, where D is the discriminant. So the error of the discriminant is a sum of R² X, R P Y, P² Q and
-#   D G, with the coefficients below.
+# - The power is exactly P² Z² - D, where D is the discriminant. So the error of the discriminant is a sum of R² X, R P Y, P² Q
+#   and D G, with the coefficients below.
 u = 1b-53;
 v = 1b-106;
 uv = 1b-159;
