@@ -78,6 +78,7 @@ pub trait Bounds: Sized {
 }
 
 impl Bounds for f32 {
+    /// Proved in `tests/proofs/rejection.g`.
     const MARGIN: Self = 12.0 * f32::EPSILON;
     const LEAST: Self = f32::from_bits((127 - 99) << 23); // 2^-99
     const SQUARES: [Self; 2] =
@@ -86,6 +87,7 @@ impl Bounds for f32 {
 }
 
 impl Bounds for f64 {
+    /// Proved in `tests/proofs/rejection.g`.
     const MARGIN: Self = 12.0 * f64::EPSILON;
     const LEAST: Self = f64::from_bits((1023 - 970) << 52); // 2^-970
     const SQUARES: [Self; 2] =
