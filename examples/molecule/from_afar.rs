@@ -27,8 +27,8 @@ pub(crate) fn report(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     Ok(text)
 }
 
-/// The index of the atom in front: from a point of the ray beside the atoms, where their distances in `f64` are small and differ in
-/// their leading digits.
+/// The index of the atom in front: from a point of the ray beside the atoms, where their distances in `f64` are small and differ
+/// in their leading digits.
 fn in_front(atoms: &[Atom], ray: &Ray) -> Option<usize> {
     let Ray { origin, direction } = Ray::<DVec3>::from(*ray);
     let closest = origin - direction * (origin.dot(direction) / direction.dot(direction));

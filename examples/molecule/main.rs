@@ -11,9 +11,9 @@
 //! cargo run --release --example molecule -- --beside-textbook --zoom 5 --width 720 --height 270 --output examples/molecule.png
 //! ```
 //!
-//! From far away, the distances of atoms one behind the other round to the same `f32`, and the one in front is still the one that
-//! is seen. `--from-afar` asks the rays of the picture with the eye 1e6 and 1e7 radii away, and counts the atoms that another hides
-//! in truth: with this crate none, by the least rounded distance many.
+//! From far away, the distances of atoms one behind the other round to the same `f32`, and the one in front is still the one
+//! that is seen. `--from-afar` asks the rays of the picture with the eye 1e6 and 1e7 radii away, and counts the answers that are
+//! not the atom in front: with this crate none, by the least rounded distance many.
 //!
 //! ```text
 //! cargo run --release --example molecule -- --from-afar --width 160 --height 160
