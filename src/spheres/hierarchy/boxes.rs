@@ -11,6 +11,9 @@
 //! (c_near - p) / d ≤ t ≤ (c_far - p) / d
 //! ```
 //!
+//! Of the range only what is ahead counts: it starts at 0 at least. A hit is in it by its t as returned, which is rounded. That moves
+//! none past the start: where the box ends, at a float no less than the exact t, is then no less than the rounded t either.
+//!
 //! **Components near zero.** A component below 2 u D, with u = 2⁻²⁴, is replaced by that, of the same sign: no reciprocal is
 //! infinite, and no product with it NaN. The coordinate of the point at t changes by at most 2 u t D, and t D, how far the hit is
 //! from the origin along that axis, is at most 2 L: so t moves by 4 u L / d.
@@ -99,13 +102,14 @@ impl Boxes {
         (low.into(), high.into())
     }
 
-    /// The boxes through which the ray passes before `end`, a bit for each, and where it enters them.
+    /// The boxes through which the ray passes between `start` and `end`, a bit for each, and where it enters them, or `start` in a
+    /// box that it has entered before.
     #[inline(always)]
     pub(super) fn entered<I: Instructions>(
         &self,
         instructions: I,
         slabs: &Slabs,
-        end: f32,
+        [start, end]: [f32; 2],
         entries: &mut [f32; LANES],
     ) -> u32 {
         let Slabs { reciprocal, near, far, is_negative } = *slabs;
@@ -122,7 +126,7 @@ impl Boxes {
                 instructions.multiply_add(planes[lane], reciprocal[axis], offset[axis])
             };
             let enter =
-                larger(larger(at(x.0, 0, near), at(y.0, 1, near)), larger(at(z.0, 2, near), 0.0));
+                larger(larger(at(x.0, 0, near), at(y.0, 1, near)), larger(at(z.0, 2, near), start));
             let leave =
                 smaller(smaller(at(x.1, 0, far), at(y.1, 1, far)), smaller(at(z.1, 2, far), end));
             entries[lane] = enter;
@@ -181,7 +185,7 @@ mod tests {
     struct Enter<'a> {
         boxes: &'a Boxes,
         slabs: Slabs,
-        end: f32,
+        limits: [f32; 2],
     }
 
     impl Vectorized for Enter<'_> {
@@ -190,7 +194,7 @@ mod tests {
         #[inline(always)]
         fn run<I: Instructions>(self, instructions: I) -> Self::Output {
             let mut entries = [0.0; LANES];
-            let entered = self.boxes.entered(instructions, &self.slabs, self.end, &mut entries);
+            let entered = self.boxes.entered(instructions, &self.slabs, self.limits, &mut entries);
             (entered, entries)
         }
     }
@@ -228,10 +232,11 @@ mod tests {
             boxes.set(LANE, sphere.bounds());
             let (low, high) = boxes.bounds();
             let largest = low.abs().max(high.abs()).max_element();
-            for end in [f32::INFINITY, f32::from_bits(hit.t.to_bits() + 1)] {
+            let just_after = f32::from_bits(hit.t.to_bits() + 1);
+            for limits in [[0.0, f32::INFINITY], [0.0, just_after], [hit.t, f32::INFINITY]] {
                 hits += 1;
                 let slabs = Slabs::new(&ray, largest, margin);
-                let (entered, entries) = lanes.run(Enter { boxes: &boxes, slabs, end });
+                let (entered, entries) = lanes.run(Enter { boxes: &boxes, slabs, limits });
                 assert_eq!(entered & !(1 << LANE), 0, "an empty box was entered");
                 dropped += u32::from(entered == 0 || entries[LANE] > hit.t);
             }

@@ -1,11 +1,11 @@
 //! Which of 16 spheres a ray may meet, in f32 and many lanes at a time. A sphere may pass though the ray misses it; none is
 //! dropped that is hit.
 //!
-//! A hit with t in (0, end) is a point of the segment from the ray's origin to `end`. So a sphere is dropped where its center
-//! is farther from that segment than the radius: with o = c - p, a = d·d and e = d / a,
+//! A hit with t from `start` to `end` is a point of that segment of the ray. So a sphere is dropped where its center is farther from
+//! the segment than the radius: with o = c - p, a = d·d and e = d / a,
 //!
 //! ```text
-//! m = o·e, but at least 0 and at most end
+//! m = o·e, but at least start and at most end
 //! w = o - m d
 //! |w|² > R²,   R = r, made larger
 //! ```
@@ -22,20 +22,21 @@
 //! w             o 1, a product, a difference                          u |o| + u m |d| + u |w|
 //! ```
 //!
-//! If the ray hits, the exact w is at most r long, and so |o| ≤ r + m |d|. As it is computed, |w| is therefore at most
+//! If the ray hits, the exact w is at most r long, and u m |d| more where the exact t is less than the start and rounds to it. So
+//! |o| ≤ r + m |d|. As it is computed, |w| is therefore at most
 //!
 //! ```text
-//! r + 9 u |o| + u |o| + u m |d| + u r = r (1 + 11 u) + 11 u m |d|
+//! r + u m |d| + 9 u |o| + u |o| + u m |d| + u r = r (1 + 11 u) + 12 u m |d|
 //! ```
 //!
 //! |w|² - R² is the sum of x² + y², off by 2 u (x² + y²), and of z² - R², off by u z², u R² and the rounding of the difference,
 //! u R²; to round the sum of the two changes no sign. That is at most 4 u R², or 2 u of R. R takes two more roundings: 4 u in all.
-//! So r is made larger by [`RADIUS_MARGIN`], 16 u, and then by [`DISTANCE_MARGIN`] m |d|, 12 u. What is left of either, u r and
+//! So r is made larger by [`RADIUS_MARGIN`], 16 u, and then by [`DISTANCE_MARGIN`] m |d|, 14 u. What is left of either, u r and
 //! u m |d|, is far more than all terms of the second order. The length |d| is taken for |x| + |y| + |z|, which is no smaller.
 //!
 //! **Overflow and underflow.** Lengths up to 2⁶⁰ and directions of 2⁻³⁰ to 2⁶⁰ keep every intermediate result finite: |o| < 2⁶²,
-//! m < 2⁹². A product that underflows is off by 2⁻¹⁵⁰: in m d that makes 2⁻⁸⁸, and [`LEAST`], 2⁻⁶⁰, which each R has added to
-//! it, is more; R² is then at least 2⁻¹²⁰ above r², and |w|² off by 2⁻¹⁴⁸ at most.
+//! and m < 2⁹² for a sphere that is hit, wherever the range starts. A product that underflows is off by 2⁻¹⁵⁰: in m d that makes 2⁻⁸⁸, and [`LEAST`], 2⁻⁶⁰, which each R has added to
+//! it, is more, as it is than half of a subnormal start; R² is then at least 2⁻¹²⁰ above r², and |w|² off by 2⁻¹⁴⁸ at most.
 
 use glam::{Vec3, Vec4};
 
@@ -45,8 +46,8 @@ use crate::{Ray, Sphere};
 /// By which part of itself a radius is made larger: 16 u. See the derivation above.
 const RADIUS_MARGIN: f32 = 8.0 * f32::EPSILON;
 
-/// By which part of the way to the closest approach it is made larger besides: 12 u.
-const DISTANCE_MARGIN: f32 = 6.0 * f32::EPSILON;
+/// By which part of the way to the closest approach it is made larger besides: 14 u.
+const DISTANCE_MARGIN: f32 = 7.0 * f32::EPSILON;
 
 /// What is added to every radius: more than underflow can take from it.
 const LEAST: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
@@ -103,7 +104,7 @@ impl Leaf {
         self.index[lane]
     }
 
-    /// The spheres that the ray may meet before `end`, a bit for each.
+    /// The spheres that the ray may meet between `start` and `end`, a bit for each.
     ///
     /// Of those, m goes to `closest` and |w|² - R² to `clearances`.
     #[inline(always)]
@@ -111,7 +112,7 @@ impl Leaf {
         &self,
         instructions: I,
         tube: &Tube,
-        end: f32,
+        [start, end]: [f32; 2],
         closest: &mut [f32; LANES],
         clearances: &mut [f32; LANES],
     ) -> u32 {
@@ -125,7 +126,7 @@ impl Leaf {
             let m = instructions.multiply_add(over_a.y, y, over_a.x * x);
             let m = instructions.multiply_add(over_a.z, z, m);
             // Comparisons that are one instruction each: `f32::clamp` looks for NaN.
-            let m = if m > 0.0 { m } else { 0.0 };
+            let m = if m > start { m } else { start };
             let m = if m < end { m } else { end };
             let x = instructions.multiply_add(-m, direction.x, x);
             let y = instructions.multiply_add(-m, direction.y, y);
@@ -191,7 +192,7 @@ mod tests {
     struct Near<'a> {
         leaf: &'a Leaf,
         tube: Tube,
-        end: f32,
+        limits: [f32; 2],
     }
 
     impl Vectorized for Near<'_> {
@@ -200,7 +201,7 @@ mod tests {
         #[inline(always)]
         fn run<I: Instructions>(self, instructions: I) -> u32 {
             let (mut closest, mut clearances) = ([0.0; LANES], [0.0; LANES]);
-            self.leaf.near(instructions, &self.tube, self.end, &mut closest, &mut clearances)
+            self.leaf.near(instructions, &self.tube, self.limits, &mut closest, &mut clearances)
         }
     }
 
@@ -231,10 +232,11 @@ mod tests {
             let elsewhere = Sphere::new((center + outward * (3.0 * radius + far)).as_vec3(), 0.0);
             let mut leaf = Leaf::filled(0, elsewhere);
             leaf.set(LANE, 1, sphere);
-            for end in [f32::INFINITY, f32::from_bits(hit.t.to_bits() + 1)] {
+            let just_after = f32::from_bits(hit.t.to_bits() + 1);
+            for limits in [[0.0, f32::INFINITY], [0.0, just_after], [hit.t, f32::INFINITY]] {
                 hits += 1;
                 let tube = Tube::with_margins(&ray, margins[0], margins[1]);
-                let near = lanes.run(Near { leaf: &leaf, tube, end });
+                let near = lanes.run(Near { leaf: &leaf, tube, limits });
                 assert_eq!(near & !(1 << LANE), 0, "a point elsewhere passed");
                 dropped += u32::from(near == 0);
             }

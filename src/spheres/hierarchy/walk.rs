@@ -54,7 +54,8 @@ struct Numbers([f32; LANES]);
 struct Query {
     slabs: Slabs,
     tube: Tube,
-    /// The end of the range, or that of what is nearer than the nearest hit so far.
+    /// The start of the range, or 0, and its end, or that of what is nearer than the nearest hit so far.
+    start: f32,
     end: f32,
     /// Where the ray enters the boxes of the last node; of the spheres of the last leaf, where it is nearest to the center.
     entries: Numbers,
@@ -95,8 +96,8 @@ impl Vectorized for Enter<'_> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, instructions: I) -> u32 {
-        let Query { slabs, end, entries, .. } = self.query;
-        self.node.entered(instructions, slabs, *end, &mut entries.0)
+        let Query { slabs, start, end, entries, .. } = self.query;
+        self.node.entered(instructions, slabs, [*start, *end], &mut entries.0)
     }
 }
 
@@ -111,25 +112,25 @@ impl Vectorized for Near<'_> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, instructions: I) -> u32 {
-        let Query { tube, end, entries, clearances, .. } = self.query;
-        self.leaf.near(instructions, tube, *end, &mut entries.0, &mut clearances.0)
+        let Query { tube, start, end, entries, clearances, .. } = self.query;
+        self.leaf.near(instructions, tube, [*start, *end], &mut entries.0, &mut clearances.0)
     }
 }
 
 impl Tree {
-    /// Calls `ask` for every sphere in the leaves that the ray may meet before `end`, and perhaps for others, the nearest boxes
-    /// first. What it returns is the new end; a negative one ends the walk.
+    /// Calls `ask` for every sphere in the leaves that the ray may meet in the range, and perhaps for others, the nearest boxes first. What it returns is the new end; a negative one ends the walk.
     #[inline(always)]
     fn walk(
         &self,
         lanes: Lanes,
         ray: &Ray,
-        end: f32,
+        Range { start, end }: Range<f32>,
         mut ask: impl FnMut(u32, &Sphere, f32) -> Option<f32>,
     ) {
         let mut query = Query {
             slabs: Slabs::new(ray, self.largest_coordinate, boxes::MARGIN),
             tube: Tube::new(ray),
+            start: if start > 0.0 { start } else { 0.0 },
             end,
             entries: Numbers::default(),
             clearances: Numbers::default(),
@@ -217,7 +218,7 @@ impl Tree {
         }
         let Range { start, end } = range;
         let mut nearest = None;
-        self.walk(lanes, ray, end, |index, sphere, end| {
+        self.walk(lanes, ray, start..end, |index, sphere, end| {
             let hit = sphere.intersect(ray, start..end)?;
             is_nearer((index, hit), nearest).then(|| {
                 nearest = Some((index, hit));
@@ -247,7 +248,7 @@ impl Tree {
             return true;
         }
         let mut occludes = false;
-        self.walk(lanes, ray, range.end, |_, sphere, _| {
+        self.walk(lanes, ray, range.clone(), |_, sphere, _| {
             occludes = sphere.occludes(ray, range.clone());
             occludes.then_some(-1.0)
         });
