@@ -1,45 +1,58 @@
 //! The filter: which of 16 spheres a ray may meet, in f32 and many lanes at a time. It may let a sphere pass that the ray
 //! misses; it never drops one that it hits.
 //!
-//! A hit with t in (0, end) is a point of the segment from the ray's origin to `end`. So a sphere is dropped where that
-//! segment stays clear of its ball: where the point of the segment nearest to the center, at t = m, is farther from it than
-//! the radius. With o = c - p, h = d·o, a = d·d, and s = a m,
+//! A hit with t from `start` to `end` is a point of that segment of the ray. So a sphere is dropped where the segment stays clear
+//! of its ball: where the point of the segment nearest to the center, at t = m, is farther from it than the radius. With
+//! o = c - p, h = d·o, a = d·d, and s = a m,
 //!
 //! ```text
-//! s = h, but at least 0 and at most a end
+//! s = h, but at least a start and at most a end
 //! |m d - o|² - r² = (o·o - r²) - T > 0,   T = 2 h m - a m² = s (2 h - s) / a
 //! ```
 //!
-//! That drops the spheres behind the origin and those beyond the nearest hit so far along with those beside the ray. For the
-//! whole line s = h and T = h² / a, which is quicker: it goes first where there are many spheres. For the half-line there is no
-//! end: that is enough where there are few.
+//! That drops the spheres behind the start and those beyond the nearest hit so far along with those beside the ray. For the
+//! whole line s = h and T = h² / a, which is quicker: it goes first where there are many spheres. For the half-line from the start
+//! there is no end: that is enough where there are few.
 //!
 //! **The error.** With u = 2⁻²⁴ and every operation rounded (a fused multiply-add rounds less),
 //!
 //! ```text
 //! o·o - r²   o twice, a product, 3 sums                 is off by at most  6 u o·o + 3 u r²
 //! h          o, a product, 2 sums                       is off by at most  4 u |o| |d|, and so T by 8 u |o| |d| m
-//! T          a 3, the quotient 1, 2 products, 2 sums    is off by at most  8 u T besides
-//! a end      a 3, a product                             is off by at most  4 u a end, and so T by 4 u T
+//! T          a 3, the quotient 1, 2 products            is off by at most  6 u |T| besides
+//!            (s - h) - h, 2 sums                                           u |T| and u s |s - h| / a
+//! a start    a 3, a product, and the same a end         is off by at most  4 u of itself, and so T by 8 u s |s - h| / a
 //! ```
 //!
-//! The last subtraction is compared with zero, and rounding it changes no sign. Now let the ray hit: o·o ≤ r² + T. With the
-//! distance q = m |d| to the point at m, that to the closest approach, h / |d| ≥ q, and that of the center from the line, at
-//! most r: |o| |d| m = q √((h / |d|)² + r²) ≤ h m + r² / 2 ≤ T + r² / 2. Together the errors are at most
+//! The last subtraction is compared with zero, and rounding it changes no sign. Now let the ray hit: o·o ≤ r² + T. Let q = m |d|
+//! be the distance to the point at m, and e = |s - h| / |d| how far that is from the closest approach: s |s - h| / a = q e.
+//!
+//! *Up to the closest approach*, q + e = h / |d|. So T = q (q + 2 e) and q e ≤ T / 2. With the distance of the center from the line,
+//! at most r, |o| q = q √((h / |d|)² + r²) ≤ h m + r² / 2 ≤ T + r² / 2. Together the errors are at most
 //!
 //! ```text
-//! 6 u (r² + T) + 3 u r² + 8 u (T + r² / 2) + 8 u T + 4 u T = 13 u r² + 26 u T
+//! 6 u (r² + T) + 3 u r² + 8 u (T + r² / 2) + 7 u T + u T / 2 + 4 u T = 13 u r² + 25.5 u T
 //! ```
 //!
-//! So r² is made larger by [`MARGIN`], 16 u, of which its rounding leaves 15 u, and T by twice that. The rest is far more than
-//! all terms of the second order. One factor is in what is kept of each sphere and the other in what is kept of the ray: the
-//! loop pays nothing for the bound.
+//! *Beyond it*, the start is behind the closest approach, and T may be negative. The exact t of the hit may be less than the start
+//! if it rounds to it: so o·o ≤ r² + T + 2 u q e. The point at m is in the ball: e ≤ r and q ≤ |o| + r. If T is not negative,
+//! |o| q ≤ 2 r² + 1.5 T and q e ≤ 2 r² + T / 2, for |o| r is at most half of o·o + r². Together the errors are at most
+//!
+//! ```text
+//! 6 u (r² + T) + 3 u r² + 8 u (2 r² + 1.5 T) + 7 u T + 11 u (2 r² + T / 2) = 47 u r² + 30.5 u T
+//! ```
+//!
+//! If T is negative, the origin is in the ball. Then |T| ≤ r², |o| ≤ r, and |o| q and q e are at most 2 r²: together 54 u r².
+//!
+//! So T is made larger by [`MARGIN`], 32 u, and r² by three times that, 96 u, of which its rounding leaves 95 u: enough for 54 u and
+//! the 32 u by which a negative T is made still less. The rest is far more than all terms of the second order. One factor is in what
+//! is kept of each sphere and the other in what is kept of the ray: the loop pays nothing for the bound.
 //!
 //! **The sign.** So the result is below zero for every sphere that is hit, and its sign alone says which spheres pass. It is
 //! NaN only where `end` is NaN or below zero: then nothing is hit, and any answer will do.
 //!
 //! **Overflow and underflow.** Lengths up to [`LARGEST`] and directions of 2⁻³⁰ to 2⁶⁰ keep every intermediate result finite:
-//! |o| < 2⁶², |h| < 2¹²², m < 2⁹². A product that underflows is off by 2⁻¹⁵⁰ more, which factors of 2 m, 2 |h| and
+//! |o| < 2⁶², |h| < 2¹²², and m < 2⁹² for a sphere that is hit, wherever the range starts. A product that underflows is off by 2⁻¹⁵⁰ more, which factors of 2 m, 2 |h| and
 //! 2 |o| / |d|, together below 2⁶² |o|, bring to 2⁻⁸⁸ |o|. Either |o| < 2⁻¹² and that is below [`LEAST`], which each r² has
 //! added to it, or it is far below u o·o. Larger spheres pass always, and other rays ask all.
 
@@ -51,8 +64,8 @@ use crate::{Ray, Sphere};
 /// How many spheres are few: those of one vector of four.
 pub(crate) const FEW: usize = 4;
 
-/// By which part of themselves r², and by twice of which T, is made larger: 16 u. See the derivation above.
-pub(crate) const MARGIN: f32 = 8.0 * f32::EPSILON;
+/// By which part of itself T, and by three times which r², is made larger: 32 u. See the derivation above.
+pub(crate) const MARGIN: f32 = 16.0 * f32::EPSILON;
 
 /// What is added to every r²: more than underflow can take from it.
 const LEAST: f64 = f64::from_bits((1023 - 99) << 52); // 2^-99
@@ -108,7 +121,7 @@ impl Block {
         self.negative_radius_squared[lane] = f32::INFINITY;
     }
 
-    /// The spheres that the ray may hit before the segment's end, a bit for each.
+    /// The spheres that the ray may hit between the segment's start and `end`, a bit for each.
     #[inline(always)]
     pub(crate) fn near_segment<I: Instructions>(
         &self,
@@ -122,7 +135,7 @@ impl Block {
         for (lane, clearance) in clearance.iter_mut().enumerate() {
             let (power, h) = self.power_and_h(instructions, lane, segment);
             // Comparisons that are one instruction each: `f32::clamp` looks for NaN.
-            let s = if h > 0.0 { h } else { 0.0 };
+            let s = if h > segment.shortest { h } else { segment.shortest };
             let s = if s < longest { s } else { longest };
             *clearance = instructions.multiply_add(s * segment.one_over_a, (s - h) - h, power);
         }
@@ -162,15 +175,15 @@ impl Block {
     /// Which of the first [`FEW`] spheres the half-line may hit, a bit for each: in one vector, whatever the instructions.
     #[inline(always)]
     pub(crate) fn few_near_half_line(&self, segment: &Segment) -> u32 {
-        let Segment { origin, direction, one_over_a, .. } = *segment;
+        let Segment { origin, direction, one_over_a, shortest, .. } = *segment;
         let first = |lanes: &[f32; LANES]| Vec4::from_slice(lanes);
         let x = first(&self.x) - origin.x;
         let y = first(&self.y) - origin.y;
         let z = first(&self.z) - origin.z;
         let power = x * x + y * y + z * z + first(&self.negative_radius_squared);
         let h = x * direction.x + y * direction.y + z * direction.z;
-        let s = h.max(Vec4::ZERO);
-        (power - s * one_over_a * s).is_negative_bitmask()
+        let s = h.max(Vec4::splat(shortest));
+        (power - s * one_over_a * ((h - s) + h)).is_negative_bitmask()
     }
 }
 
@@ -184,11 +197,11 @@ pub(super) fn is_in_reach(sphere: &Sphere) -> bool {
     sphere.center.abs().max_element() <= LARGEST && sphere.radius <= LARGEST
 }
 
-/// r², made larger by `margin` of itself and by [`LEAST`].
+/// r², made larger by three times `margin` of itself and by [`LEAST`].
 #[expect(clippy::cast_possible_truncation, reason = "the margin has room for rounding")]
 fn enlarged_square(radius: f32, margin: f32) -> f32 {
     let radius = f64::from(radius);
-    (radius * radius * (1.0 + f64::from(margin)) + LEAST) as f32
+    (radius * radius * (1.0 + 3.0 * f64::from(margin)) + LEAST) as f32
 }
 
 /// What the filter knows of a ray.
@@ -200,6 +213,8 @@ pub(crate) struct Segment {
     a: f32,
     /// 1 / d·d, made larger.
     one_over_a: f32,
+    /// a times the start of the range, or 0.
+    shortest: f32,
 }
 
 impl Segment {
@@ -211,10 +226,11 @@ impl Segment {
     }
 
     #[inline(always)]
-    pub(crate) fn new(ray: &Ray, margin: f32) -> Self {
+    pub(crate) fn new(ray: &Ray, start: f32, margin: f32) -> Self {
         let Ray { origin, direction } = *ray;
         let a = direction.length_squared();
-        Self { origin, direction, a, one_over_a: (1.0 + 2.0 * margin) / a }
+        let shortest = if start > 0.0 { a * start } else { 0.0 };
+        Self { origin, direction, a, one_over_a: (1.0 + margin) / a, shortest }
     }
 }
 
@@ -273,9 +289,16 @@ mod tests {
             let Some(hit) = sphere.intersect(&ray, 0.0..f32::INFINITY) else { continue };
             let mut block = Block::EMPTY;
             block.set(LANE, &sphere, margin);
-            for end in [f32::INFINITY, f32::from_bits(hit.t.to_bits() + 1)] {
+            let just_after = f32::from_bits(hit.t.to_bits() + 1);
+            let Some([_, exit]) = sphere.roots_algebraic(&ray) else { continue };
+            for [start, end] in [
+                [0.0, f32::INFINITY],
+                [0.0, just_after],
+                [hit.t, f32::INFINITY],
+                [exit, f32::INFINITY],
+            ] {
                 hits += 1;
-                let segment = Segment::new(&ray, margin);
+                let segment = Segment::new(&ray, start, margin);
                 let (near, near_line) = lanes.run(Tests { block: &block, segment, end });
                 let near_half_line = block.few_near_half_line(&segment);
                 assert_eq!((near | near_half_line) & !(1 << LANE), 0, "an empty lane passed");

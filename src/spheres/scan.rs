@@ -193,7 +193,7 @@ impl Spheres {
     #[inline]
     pub fn nearest(&self, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
         if self.len() <= FEW {
-            return self.nearest_of(self.few_near(ray), ray, range);
+            return self.nearest_of(self.few_near(ray, range.start), ray, range);
         }
         self.nearest_in_lanes(Lanes::best(), ray, range)
     }
@@ -208,7 +208,7 @@ impl Spheres {
         if !Segment::allows(ray) {
             return nearest(&self.spheres, ray, range);
         }
-        let segment = Segment::new(ray, MARGIN);
+        let segment = Segment::new(ray, range.start, MARGIN);
         if let Some(near) = self.word_near(lanes, &segment, range.end) {
             return self.nearest_of(near, ray, range);
         }
@@ -221,7 +221,7 @@ impl Spheres {
         if !Segment::allows(ray) {
             return self.spheres.occludes(ray, range);
         }
-        let segment = Segment::new(ray, MARGIN);
+        let segment = Segment::new(ray, range.start, MARGIN);
         if let Some(near) = self.word_near(lanes, &segment, range.end) {
             return self.any_of(near, ray, range);
         }
@@ -230,12 +230,12 @@ impl Spheres {
             .any(|(_, sphere)| sphere.occludes(ray, range.clone()))
     }
 
-    /// A bit for each of the first [`FEW`] spheres that the ray may meet, and perhaps for others.
+    /// A bit for each of the first [`FEW`] spheres that the ray may meet from `start` on, and perhaps for others.
     #[inline]
-    fn few_near(&self, ray: &Ray) -> u64 {
+    fn few_near(&self, ray: &Ray, start: f32) -> u64 {
         match self.blocks.first() {
             Some(block) if Segment::allows(ray) => {
-                block.few_near_half_line(&Segment::new(ray, MARGIN)).into()
+                block.few_near_half_line(&Segment::new(ray, start, MARGIN)).into()
             }
             Some(_) => (1 << FEW) - 1,
             None => 0,
@@ -382,7 +382,7 @@ impl Hittable for Spheres {
     #[inline]
     fn occludes(&self, ray: &Ray, range: Range<f32>) -> bool {
         if self.len() <= FEW {
-            return self.any_of(self.few_near(ray), ray, range);
+            return self.any_of(self.few_near(ray, range.start), ray, range);
         }
         self.occludes_in_lanes(Lanes::best(), ray, range)
     }

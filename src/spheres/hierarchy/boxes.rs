@@ -233,12 +233,18 @@ mod tests {
             let (low, high) = boxes.bounds();
             let largest = low.abs().max(high.abs()).max_element();
             let just_after = f32::from_bits(hit.t.to_bits() + 1);
-            for limits in [[0.0, f32::INFINITY], [0.0, just_after], [hit.t, f32::INFINITY]] {
+            let Some([_, exit]) = sphere.roots_algebraic(&ray) else { continue };
+            for (limits, t) in [
+                ([0.0, f32::INFINITY], hit.t),
+                ([0.0, just_after], hit.t),
+                ([hit.t, f32::INFINITY], hit.t),
+                ([exit, f32::INFINITY], exit),
+            ] {
                 hits += 1;
                 let slabs = Slabs::new(&ray, largest, margin);
                 let (entered, entries) = lanes.run(Enter { boxes: &boxes, slabs, limits });
                 assert_eq!(entered & !(1 << LANE), 0, "an empty box was entered");
-                dropped += u32::from(entered == 0 || entries[LANE] > hit.t);
+                dropped += u32::from(entered == 0 || entries[LANE] > t);
             }
         }
         assert!(hits > cases / 4, "{hits}");

@@ -233,7 +233,13 @@ mod tests {
             let mut leaf = Leaf::filled(0, elsewhere);
             leaf.set(LANE, 1, sphere);
             let just_after = f32::from_bits(hit.t.to_bits() + 1);
-            for limits in [[0.0, f32::INFINITY], [0.0, just_after], [hit.t, f32::INFINITY]] {
+            let Some([_, exit]) = sphere.roots_algebraic(&ray) else { continue };
+            for limits in [
+                [0.0, f32::INFINITY],
+                [0.0, just_after],
+                [hit.t, f32::INFINITY],
+                [exit, f32::INFINITY],
+            ] {
                 hits += 1;
                 let tube = Tube::with_margins(&ray, margins[0], margins[1]);
                 let near = lanes.run(Near { leaf: &leaf, tube, limits });
