@@ -2,6 +2,7 @@
 
 mod boxes;
 mod build;
+mod hits;
 mod leaf;
 mod split;
 mod walk;
@@ -12,6 +13,7 @@ use core::fmt;
 use core::ops::Range;
 
 use boxes::Boxes;
+pub(super) use hits::Hits;
 use leaf::Leaf;
 
 use super::Spheres;
@@ -125,6 +127,22 @@ impl SphereBvh {
         match &self.0 {
             Shape::Scan(spheres) => spheres.nearest(ray, range),
             Shape::Tree(tree) => tree.nearest(Lanes::best(), ray, range),
+        }
+    }
+
+    /// [`hits`](Self::hits) with that set of instructions.
+    #[inline(always)]
+    pub(super) fn hits_in_lanes(
+        &self,
+        lanes: Lanes,
+        ray: &Ray,
+        range: Range<f32>,
+    ) -> super::hits::Hits<'_> {
+        match &self.0 {
+            Shape::Scan(spheres) => {
+                super::hits::Hits::Scan(spheres.hits_in_lanes(lanes, ray, range))
+            }
+            Shape::Tree(tree) => super::hits::Hits::Tree(Hits::new(tree, lanes, ray, range)),
         }
     }
 

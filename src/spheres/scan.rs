@@ -230,6 +230,29 @@ impl Spheres {
             .any(|(_, sphere)| sphere.occludes(ray, range.clone()))
     }
 
+    /// Calls `ask` for the index of every sphere that the ray may meet in the range, and perhaps for others.
+    pub(super) fn for_each_near(
+        &self,
+        lanes: Lanes,
+        ray: &Ray,
+        range: Range<f32>,
+        mut ask: impl FnMut(usize),
+    ) {
+        if !Segment::allows(ray) {
+            if ray.origin.is_finite() && ray.direction.is_finite() {
+                (0..self.len()).for_each(ask);
+            }
+        } else if self.len() <= FEW {
+            Bits(self.few_near(ray, range.start)).for_each(ask);
+        } else {
+            let segment = Segment::new(ray, range.start, MARGIN);
+            let mut near = Near::new(self, lanes, &segment);
+            while let Some((index, _)) = near.next(range.end) {
+                ask(index);
+            }
+        }
+    }
+
     /// A bit for each of the first [`FEW`] spheres that the ray may meet from `start` on, and perhaps for others.
     #[inline]
     fn few_near(&self, ray: &Ray, start: f32) -> u64 {

@@ -18,22 +18,22 @@ const MOST_WAITING: usize = DEEPEST * (LANES - 1);
 
 /// A node or a leaf that waits, and where the ray enters its box: the bits of that distance, which is not negative, are above
 /// those of what it is. So the nearer has the lower key.
-type Key = u64;
+pub(super) type Key = u64;
 
 #[inline(always)]
-fn key(entry: f32, child: u32) -> Key {
+pub(super) fn key(entry: f32, child: u32) -> Key {
     u64::from(entry.to_bits()) << 32 | u64::from(child)
 }
 
 /// Where the ray enters the box.
 #[inline(always)]
-fn entry(key: Key) -> f32 {
+pub(super) fn entry(key: Key) -> f32 {
     f32::from_bits((key >> 32) as u32)
 }
 
 /// What it is.
 #[inline(always)]
-fn child(key: Key) -> u32 {
+pub(super) fn child(key: Key) -> u32 {
     #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
     let child = key as u32;
     child
@@ -46,12 +46,13 @@ fn above(t: f32) -> f32 {
 }
 
 /// Numbers of 16 boxes or spheres, where one instruction can write them.
-#[derive(Default)]
+#[derive(Clone, Default)]
 #[repr(align(64))]
 struct Numbers([f32; LANES]);
 
 /// A ray on its way.
-struct Query {
+#[derive(Clone)]
+pub(super) struct Query {
     slabs: Slabs,
     tube: Tube,
     /// The start of the range, or 0, and its end, or that of what is nearer than the nearest hit so far.
@@ -64,6 +65,24 @@ struct Query {
 }
 
 impl Query {
+    #[inline(always)]
+    pub(super) fn new(tree: &Tree, ray: &Ray, &Range { start, end }: &Range<f32>) -> Self {
+        Self {
+            slabs: Slabs::new(ray, tree.largest_coordinate, boxes::MARGIN),
+            tube: Tube::new(ray),
+            start: if start > 0.0 { start } else { 0.0 },
+            end,
+            entries: Numbers::default(),
+            clearances: Numbers::default(),
+        }
+    }
+
+    /// Where the ray enters a box of the last node.
+    #[inline(always)]
+    pub(super) fn entry(&self, lane: u32) -> f32 {
+        self.entries.0[lane as usize % LANES]
+    }
+
     /// Of these spheres of the last leaf, the one that the ray probably enters first.
     #[inline(never)]
     fn first_of(&self, mut near: u32, length: f32) -> usize {
@@ -86,9 +105,9 @@ impl Query {
 
 /// Asks which boxes of a node the ray enters. These two, and the exact routine, do not share a function: the compiler would save
 /// and restore the vectors. Two references are passed in registers.
-struct Enter<'a> {
-    node: &'a Boxes,
-    query: &'a mut Query,
+pub(super) struct Enter<'a> {
+    pub(super) node: &'a Boxes,
+    pub(super) query: &'a mut Query,
 }
 
 impl Vectorized for Enter<'_> {
@@ -102,9 +121,9 @@ impl Vectorized for Enter<'_> {
 }
 
 /// Asks which spheres of a leaf the ray may meet.
-struct Near<'a> {
-    leaf: &'a Leaf,
-    query: &'a mut Query,
+pub(super) struct Near<'a> {
+    pub(super) leaf: &'a Leaf,
+    pub(super) query: &'a mut Query,
 }
 
 impl Vectorized for Near<'_> {
@@ -124,17 +143,10 @@ impl Tree {
         &self,
         lanes: Lanes,
         ray: &Ray,
-        Range { start, end }: Range<f32>,
+        range: Range<f32>,
         mut ask: impl FnMut(u32, &Sphere, f32) -> Option<f32>,
     ) {
-        let mut query = Query {
-            slabs: Slabs::new(ray, self.largest_coordinate, boxes::MARGIN),
-            tube: Tube::new(ray),
-            start: if start > 0.0 { start } else { 0.0 },
-            end,
-            entries: Numbers::default(),
-            clearances: Numbers::default(),
-        };
+        let mut query = Query::new(self, ray, &range);
         // Not cleared first: that would take as long as some visits.
         let mut waiting = ArrayVec::<Key, MOST_WAITING>::new();
         let mut next = key(0.0, self.root);

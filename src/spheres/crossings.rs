@@ -1,0 +1,131 @@
+//! The crossings that were found and not given yet: the first along the ray first.
+
+use core::ops::Range;
+
+use super::queue::Queue;
+use crate::{Hit, Hittable, Ray, Sphere};
+
+/// For how many crossings there is room without allocating.
+const FEW: usize = 4;
+
+/// Spheres that each have a place, and an index in the order in which they were given.
+pub(super) trait Places {
+    /// The sphere at a place.
+    fn sphere(&self, place: usize) -> Option<Sphere>;
+
+    /// Its index.
+    fn index(&self, place: usize) -> usize;
+}
+
+/// In a slice, each sphere's place is its index.
+impl Places for &[Sphere] {
+    #[inline(always)]
+    fn sphere(&self, place: usize) -> Option<Sphere> {
+        self.get(place).copied()
+    }
+
+    #[inline(always)]
+    fn index(&self, place: usize) -> usize {
+        place
+    }
+}
+
+/// Where a ray enters or leaves a sphere.
+#[derive(Clone, Copy, Debug)]
+struct Crossing {
+    hit: Hit,
+    is_exit: bool,
+    /// The place of the sphere.
+    place: usize,
+}
+
+/// The crossings of a ray with t in a range.
+///
+/// Where a ray enters a sphere, it is not asked where it leaves before the entry is given.
+#[derive(Clone, Debug)]
+pub(super) struct Crossings<P> {
+    pub(super) places: P,
+    pub(super) ray: Ray,
+    pub(super) range: Range<f32>,
+    found: Queue<Crossing, FEW>,
+    /// The place of the sphere whose entry was given last.
+    entered: Option<usize>,
+}
+
+impl<P: Places> Crossings<P> {
+    #[inline(always)]
+    pub(super) fn new(places: P, ray: &Ray, range: Range<f32>) -> Self {
+        Self { places, ray: *ray, range, found: Queue::new(), entered: None }
+    }
+
+    /// Asks where the ray crosses the sphere at a place first.
+    ///
+    /// Not inlined: a loop over vectors that shared a function with the exact routine would save them around it.
+    #[inline(never)]
+    pub(super) fn ask(&mut self, place: usize) {
+        let Self { places, ray, range, .. } = self;
+        let Some(hit) =
+            places.sphere(place).and_then(|sphere| sphere.intersect(ray, range.clone()))
+        else {
+            return;
+        };
+        let is_exit = !hit.front_face(ray);
+        self.add(Crossing { hit, is_exit, place });
+    }
+
+    /// Asks where the ray leaves the sphere that it has entered.
+    #[inline(always)]
+    pub(super) fn ask_for_exit(&mut self) {
+        if let Some(place) = self.entered.take() {
+            self.ask_for_exit_of(place);
+        }
+    }
+
+    #[inline(never)]
+    fn ask_for_exit_of(&mut self, place: usize) {
+        let Self { places, ray, range, .. } = self;
+        let exit = places.sphere(place).and_then(|sphere| {
+            let [_, exit] = sphere.roots_algebraic(ray)?;
+            sphere.intersect(ray, exit..range.end)
+        });
+        if let Some(hit) = exit {
+            self.add(Crossing { hit, is_exit: true, place });
+        }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, crossing: Crossing) {
+        let Self { places, ray, found, .. } = self;
+        found.push(crossing, |a, b| is_before(places, ray, a, b));
+    }
+
+    /// The t of the first.
+    #[inline(always)]
+    pub(super) fn first(&self) -> Option<f32> {
+        self.found.first().map(|crossing| crossing.hit.t)
+    }
+
+    /// Takes the first.
+    #[inline(always)]
+    pub(super) fn take(&mut self) -> Option<(usize, Hit)> {
+        let Self { places, ray, found, entered, .. } = self;
+        let Crossing { hit, is_exit, place } = found.pop(|a, b| is_before(places, ray, a, b))?;
+        if !is_exit {
+            *entered = Some(place);
+        }
+        Some((places.index(place), hit))
+    }
+}
+
+/// Whether a crossing comes before another.
+#[inline(always)]
+fn is_before<P: Places>(places: &P, ray: &Ray, a: &Crossing, b: &Crossing) -> bool {
+    a.hit.t < b.hit.t || (a.hit.t == b.hit.t && is_before_at_equal_t(places, ray, a, b))
+}
+
+/// Whether it does where both have the same t, rounded.
+#[cold]
+#[inline(never)]
+fn is_before_at_equal_t<P: Places>(places: &P, _ray: &Ray, a: &Crossing, b: &Crossing) -> bool {
+    (places.index(a.place), a.is_exit) < (places.index(b.place), b.is_exit)
+}
