@@ -9,6 +9,9 @@ use super::lanes::Lanes;
 use super::{SphereBvh, Spheres};
 use crate::{Hit, Ray, Sphere};
 
+#[cfg(test)]
+mod tests;
+
 impl Spheres {
     /// Returns an iterator over all crossings.
     #[inline]

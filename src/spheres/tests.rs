@@ -15,14 +15,14 @@ use crate::{Hit, Hittable, Ray, Sphere, nearest};
     reason = "those of the integration tests, which other unit tests take too"
 )]
 #[path = "../../tests/support/families.rs"]
-mod families;
+pub(super) mod families;
 
 use families::{FAMILIES, Family, Rng};
 
-const ALL: Range<f32> = 0.0..f32::INFINITY;
+pub(super) const ALL: Range<f32> = 0.0..f32::INFINITY;
 
 /// A hit as bits: -0.0 is not 0.0 here.
-fn bits(found: Option<(usize, Hit)>) -> Option<(usize, [u32; 7], Hit)> {
+pub(super) fn bits(found: Option<(usize, Hit)>) -> Option<(usize, [u32; 7], Hit)> {
     found.map(|(index, hit)| {
         let [a, b, c] = hit.point.to_array();
         let [d, e, f] = hit.normal.to_array();
@@ -31,15 +31,15 @@ fn bits(found: Option<(usize, Hit)>) -> Option<(usize, [u32; 7], Hit)> {
 }
 
 /// The same spheres as all three hold them.
-struct Scene {
-    slice: Vec<Sphere>,
-    scan: Spheres,
+pub(super) struct Scene {
+    pub(super) slice: Vec<Sphere>,
+    pub(super) scan: Spheres,
     /// A hierarchy, however few they are.
-    bvh: SphereBvh,
+    pub(super) bvh: SphereBvh,
 }
 
 impl Scene {
-    fn new(slice: Vec<Sphere>) -> Self {
+    pub(super) fn new(slice: Vec<Sphere>) -> Self {
         let scan = Spheres::from(slice.clone());
         Self { bvh: SphereBvh::tree(&scan), scan, slice }
     }
@@ -63,7 +63,7 @@ impl Scene {
 }
 
 /// One of the values.
-fn choose<T: Copy>(rng: &mut Rng, values: &[T]) -> T {
+pub(super) fn choose<T: Copy>(rng: &mut Rng, values: &[T]) -> T {
     values[usize::try_from(rng.below(values.len() as u64)).unwrap_or(0)]
 }
 
@@ -93,7 +93,7 @@ fn hostile(rng: &mut Rng) -> Vec3 {
 }
 
 /// A member of a scene for a ray of a case of that family.
-fn member(rng: &mut Rng, family: &Family, of_case: Sphere) -> Sphere {
+pub(super) fn member(rng: &mut Rng, family: &Family, of_case: Sphere) -> Sphere {
     let mut sphere = of_case;
     match rng.below(10) {
         // The very sphere: equal distances.
@@ -119,12 +119,12 @@ fn member(rng: &mut Rng, family: &Family, of_case: Sphere) -> Sphere {
 }
 
 /// The float after a positive one.
-fn above(t: f32) -> f32 {
+pub(super) fn above(t: f32) -> f32 {
     if t > 0.0 && t < f32::INFINITY { f32::from_bits(t.to_bits() + 1) } else { t }
 }
 
 /// Ranges that hold all, that begin or end at a hit, and that are none.
-fn ranges(rng: &mut Rng, slice: &[Sphere], ray: &Ray) -> Vec<Range<f32>> {
+pub(super) fn ranges(rng: &mut Rng, slice: &[Sphere], ray: &Ray) -> Vec<Range<f32>> {
     let mut ranges = vec![ALL, f32::NEG_INFINITY..f32::MAX];
     let first = nearest(slice, ray, ALL).map(|(_, hit)| hit.t);
     let other = (!slice.is_empty())
@@ -271,7 +271,7 @@ fn of_equal_distances_the_lowest_index_of_large_and_small() {
 }
 
 /// What a long run asks: scenes of many kinds, and rays that are hard for their boxes and filters.
-mod questions {
+pub(super) mod questions {
     use super::*;
 
     fn float(rng: &mut Rng, low: f64, high: f64) -> f32 {
@@ -308,7 +308,7 @@ mod questions {
     }
 
     /// Spheres of one kind, `most` at most.
-    pub(super) fn scene(rng: &mut Rng, most: u64) -> Vec<Sphere> {
+    pub(in crate::spheres) fn scene(rng: &mut Rng, most: u64) -> Vec<Sphere> {
         let length = length(rng, most);
         let mut slice: Vec<Sphere> = match rng.below(6) {
             // Repeated and concentric, on a lattice.
@@ -366,7 +366,7 @@ mod questions {
     }
 
     /// A ray for that scene.
-    pub(super) fn ray(rng: &mut Rng, slice: &[Sphere]) -> Ray {
+    pub(in crate::spheres) fn ray(rng: &mut Rng, slice: &[Sphere]) -> Ray {
         let target = if slice.is_empty() { Sphere::default() } else { choose(rng, slice) };
         let Sphere { center, radius } = target;
         let unit = rng.unit_vector().as_vec3();
