@@ -1,5 +1,5 @@
-//! Early rejection: a test in a few operations, in the scene's own precision, of whether a ray misses a sphere. A sphere that the ray
-//! misses may pass the test; a sphere that it hits is never rejected.
+//! Early rejection: a test in a few operations, in the scene's own precision, of whether a ray misses a sphere. A sphere that the
+//! ray misses may pass the test; a sphere that it hits is never rejected.
 //!
 //! A hit with t in (0, end) is a point of the segment from the ray's origin to `end`. So a sphere is rejected where that segment
 //! stays clear of its ball: where the point of the segment nearest to the center, at t = m, is farther from it than the radius.
@@ -24,27 +24,28 @@
 //! a end      a 3, a product                             is off by at most  4 u a end, and so T by 4 u T
 //! ```
 //!
-//! Now let the ray hit: o·o ≤ r² + T. With the distance q = m |d| to the point at m, that to the closest approach, h / |d| ≥ q, and
-//! that of the center from the line, at most r: |o| |d| m = q √((h / |d|)² + r²) ≤ h m + r² / 2 ≤ T + r² / 2. Together the errors
-//! are at most
+//! Now let the ray hit: o·o ≤ r² + T. With the distance q = m |d| to the point at m, that to the closest approach, h / |d| ≥ q,
+//! and that of the center from the line, at most r: |o| |d| m = q √((h / |d|)² + r²) ≤ h m + r² / 2 ≤ T + r² / 2. Together the
+//! errors are at most
 //!
 //! ```text
 //! 6 u (r² + T) + 3 u r² + 8 u (T + r² / 2) + 8 u T + 4 u T = 13 u r² + 26 u T
 //! ```
 //!
-//! So r² is made larger by `MARGIN`, 16 u, and T by twice that. The rest is far more than all terms of the second order.
+//! So r² is made larger by `MARGIN`, 16 u, and T by twice that. That leaves 3 u r² and 6 u T. All terms of the second order are
+//! together below 1,000 u² (r² + T), which is a 16,000th of u (r² + T).
 //!
 //! The last subtraction is only compared with a constant, which its rounding does not change.
 //!
 //! **Underflow.** For directions of length 2⁻³⁰ to 2⁶⁰ (in `f64`, 2⁻²⁵⁰ to 2⁵⁰⁰), a and 1 / a are normal numbers. A product that
 //! underflows has an additional error of up to 2⁻¹⁵⁰ (2⁻¹⁰⁷⁵). In h and in a end, this error is multiplied by 2 |o| / |d|, and in
-//! s / a by 2 |o| |d|: together less than 2⁻⁸⁸ |o| (2⁻⁵⁷³ |o|). If |o| < 2⁻¹² (2⁻⁴⁰⁰), this and the errors of the squares are less
-//! than `LEAST`, which the result has to exceed. Otherwise they are far below u o·o. For all other directions, 1 / a is set to NaN,
-//! so that nothing is rejected.
+//! s / a by 2 |o| |d|: together less than 2⁻⁸⁸ |o| (2⁻⁵⁷³ |o|). If |o| < 2⁻¹² (2⁻⁴⁰⁰), this and the errors of the squares are
+//! less than `LEAST`, which the result has to exceed. Otherwise they are far below u o·o. For all other directions, 1 / a is set
+//! to NaN, so that nothing is rejected.
 //!
-//! **Overflow and NaN.** T is never negative where `end` is positive. So overflow in h or T makes the result -∞ or NaN, and so does an
-//! infinite radius. Overflow in o·o makes it +∞ or NaN. Only a finite result rejects. Where `end` is not positive there is no hit,
-//! and either answer is right. A negative radius is treated as its absolute value: the exact routine returns no hit.
+//! **Overflow and NaN.** T is never negative where `end` is positive. So overflow in h or T makes the result -∞ or NaN, and so
+//! does an infinite radius. Overflow in o·o makes it +∞ or NaN. Only a finite result rejects. Where `end` is not positive there
+//! is no hit, and either answer is right. A negative radius is treated as its absolute value: the exact routine returns no hit.
 
 use glam::{DVec3, Mat4, Vec3, Vec4};
 

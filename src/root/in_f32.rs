@@ -51,13 +51,23 @@ impl Setting {
 
     /// The same from afar, where the error of t would move the point: by the closest approach.
     ///
-    /// Its foot, (h / a) d - o, is off by 8 u |o| along d, what h brings besides o's error, a, its reciprocal and a product; and by
-    /// u |o| each for o, across d, and for the product with d: by less than 9.1 u |o|. The square of half the chord's length is off by
-    /// 4 u r |o| for what the foot errs by at right angles to d, and by 5 u r²; that error along d counts as a square, as next to
-    /// nothing. So half the length, s / √a, is off by less than 5 u r |o| over itself, and 4 u r.
+    /// Its foot is (h / a) d - o, and half the chord's length l = s / √a. With r² exact,
     ///
-    /// A root of the plain step has s / √a > 2⁻¹⁶ |o|, and both are off by less than 2⁻³¹ r. The others are those of
-    /// [`half_chord_from_afar`], whose bounds include these.
+    /// ```text
+    /// h / a       h 3 u without o, a 3 u, its reciprocal, a product        |error| ≤ 8 u |o|, along d
+    /// (h / a) d   a product                                                |error| ≤   u |o|
+    /// o           across d; along d, the error in h cancels it             |error| ≤   u |o|, across d
+    /// the foot    together, √(8² + 1) u |o| + u |o|                        |error| < 9.1 u |o|
+    /// l²          2 r times what the foot is off by across d, 2 u |o|      |error| ≤ 4 u r |o|
+    ///             the foot's difference, its square and r² less that       |error| ≤ 5 u r²
+    /// l           both over l, and as r < |o| / 128                        |error| < 5 u r |o| / l
+    ///             1 / a, a product, the root                               |error| < 4 u r
+    /// ```
+    ///
+    /// What the foot is off by along d counts in l² only by its square, which is next to nothing.
+    ///
+    /// A root of the plain step has l > 2⁻¹⁶ |o|, and both the foot and l are off by less than 2⁻³¹ r. The other roots are those
+    /// of [`half_chord_from_afar`], whose bounds include these.
     #[inline(always)]
     fn found_from_afar(&self, chord: &Chord<f64>, rounded: f32) -> Found {
         let Self { line, o, radius_squared } = *self;
@@ -109,8 +119,8 @@ fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
 #[inline(never)]
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
 fn from_the_surface(line: &Line, chord: Chord<f64>, range: Range<f32>) -> Verdict<Found> {
-    /// Of the point, in t |d|: with h² > clear a m, h errs by 2¹⁰ u of itself, and t by 1,030 u; o, products and sums bring 8 u r, and
-    /// t |d| > 2⁻⁷ r.
+    /// Of the point, in t |d|: with h² > clear a m, h errs by 2¹⁰ u of itself, and t by 1,030 u; o, products and sums bring 8 u
+    /// r, and t |d| > 2⁻⁷ r.
     const ERROR: f64 = 4096.0 * U;
     let Chord { a, h, distance_squared, power, .. } = chord;
     if line.radius < 0.0
@@ -143,8 +153,8 @@ fn from_the_surface(line: &Line, chord: Chord<f64>, range: Range<f32>) -> Verdic
         .map_or(Verdict::Doubt, Verdict::Hit)
 }
 
-/// Finds the nearest hit where the plain step is in doubt: with a finer power close to the surface, and with the bound of the case
-/// from afar.
+/// Finds the nearest hit where the plain step is in doubt: with a finer power close to the surface, and with the bound of the
+/// case from afar.
 #[cold]
 #[inline(never)]
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
@@ -185,8 +195,8 @@ fn nearest_again(
 
 /// Finds half the chord of a line from farther than [`NEAR`] by the closest approach.
 ///
-/// With the discriminant within e, half the chord s errs by e / 2 s, which counts against a sum of P or more in the root, and in the
-/// point against a radius, of which it is to be less than 2⁻²⁶.
+/// With the discriminant within e, half the chord s errs by e / 2 s, which counts against a sum of P or more in the root, and in
+/// the point against a radius, of which it is to be less than 2⁻²⁶.
 #[inline(always)]
 fn half_chord_from_afar(setting: &Setting) -> Verdict<f64> {
     /// Of s P, so that the root errs by 2⁻³⁵ of itself.
@@ -350,8 +360,8 @@ fn hit(sphere: &Sphere, ray: &Ray, found: Found) -> Hit {
 ///
 /// The point is off by at most the smaller of 2⁻³¹ of the distance travelled and 2⁻²⁵ of the radius; here are 2⁻²⁹ of the largest
 /// coordinate of the way travelled, which is at least 1/√3 of it, and 2⁻²⁴ of the radius. A direction that is outward by the
-/// rounded normal is inward in truth by no more than that is off, e < √3 2⁻²⁵, and passes the surface from e² r / 2 above it; here
-/// are 2⁻⁴⁸ r.
+/// rounded normal is inward in truth by no more than that is off, e < √3 2⁻²⁵, and passes the surface from e² r / 2 above it;
+/// here are 2⁻⁴⁸ r.
 #[inline(always)]
 fn point_error(t: f32, sphere: &Sphere, ray: &Ray) -> f32 {
     const OF_DISTANCE: f32 = f32::EPSILON / 64.0;

@@ -183,8 +183,8 @@ fn hit(line: Line, t: f64, point: DVec3, normal: DVec3) -> Hit<DVec3> {
 
 /// How far off the point may be besides the rounding of its coordinates, and more: see [`Hit::clearance`].
 ///
-/// As for `f32`, where the point may be off by the smaller of 2⁻⁶⁰ of the distance travelled and 2⁻⁵³ of the radius, and the normal
-/// by e < √3 2⁻⁵².
+/// As for `f32`, where the point may be off by the smaller of 2⁻⁶⁰ of the distance travelled and 2⁻⁵³ of the radius, and the
+/// normal by e < √3 2⁻⁵².
 #[inline(always)]
 fn point_error(t: f64, line: Line) -> f64 {
     const OF_DISTANCE: f64 = f64::EPSILON / 64.0;

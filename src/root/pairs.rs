@@ -1,12 +1,12 @@
 //! The origin moved along the line, exactly, to where nothing cancels, and the quadratic solved from there.
 //!
-//! A ray lies on the same line wherever on it its origin is. With w = t d - o, from the center to where the line is at t, the quadratic
-//! from there is `a τ² + 2 (w·d) τ + (w·w - r²)`. Its discriminant, (w·d)² - a (w·w - r²), is the same for every t. Of a t in `f64`, w is
-//! computed in pairs, and so is w·w - r², where nearly all cancels; all else is plain.
+//! A ray lies on the same line wherever on it its origin is. With w = t d - o, from the center to where the line is at t, the
+//! quadratic from there is `a τ² + 2 (w·d) τ + (w·w - r²)`. Its discriminant, (w·d)² - a (w·w - r²), is the same for every t. Of
+//! a t in `f64`, w is computed in pairs, and so is w·w - r², where nearly all cancels; all else is plain.
 //!
-//! **At the closest approach**, t = h / a but for rounding, the discriminant loses nothing to cancellation: w·d is next to zero there,
-//! and w is no longer than a radius. Where the plain discriminant is certain enough, this move is left out. **At the root**, but for
-//! rounding, τ is a correction, to third order
+//! **At the closest approach**, t = h / a but for rounding, the discriminant loses nothing to cancellation: w·d is next to zero
+//! there, and w is no longer than a radius. Where the plain discriminant is certain enough, this move is left out. **At the
+//! root**, but for rounding, τ is a correction, to third order
 //!
 //! ```text
 //! τ = -q (1 + a q / 2 (w·d)),   q = (w·w - r²) / 2 (w·d)
@@ -21,16 +21,32 @@
 //! At the closest approach, where |t d| ≤ |o|, w·d is of no more than 8 u P, for what h, a and the quotient are rounded by, and
 //!
 //! ```text
-//! w·w - r²      40 v R² as a power in pairs, and what w errs by                    |error| ≤ 42 v R² + 16 u v R |o|
-//! w·d           8 v compensated, the low parts 7 v, w 1 v                          |error| ≤ 16 v R |d| + 24 u v P + u |w·d|
-//! (w·d)²        2 (8 u P) times that, and its rounding                             |error| ≤ 256 u v P R |d| + 192 u v P²
-//! a (w·w - r²)  a, 3 u, the rounding of the power and of the product               |error| ≤ that of the power, a times, + 5 u (D + (w·d)²)
-//! discriminant  and the difference, u                                              |error| ≤ 42 v a R² + 272 u v P R |d| + 512 u v P² + 6 u D
+//! w·w - r²      40 v R² as a power in pairs, and what w errs by      |error| ≤ 42 v R² + 16 u v R |o|
+//! w·d           8 v compensated, the low parts 7 v, w 1 v            |error| ≤ 16 v R |d| + 24 u v P + u |w·d|
+//! (w·d)²        2 (8 u P) times that, and its rounding               |error| ≤ 256 u v P R |d| + 192 u v P²
+//! a (w·w - r²)  a, 3 u, the rounding of the power and the product    |error| ≤ a times that of the power + 5 u (D + (w·d)²)
+//! discriminant  and the difference, u                                |error| ≤ 42 v a R² + 272 u v P R |d| + 512 u v P² + 6 u D
 //! ```
 //!
-//! At the root, |t d| ≤ 2 √m. After the first move, what w erred by there counts too, with R ≤ r + 8 u |o|: so w errs by 2 v r + 16 u v √m,
-//! and w·w - r² by 46 v r² + 32 u v r √m, which is half of that over s in t. The slope w·d errs by 4 u r |d|, of 12 u there are five in the
-//! operations of τ and three in w + τ d, and what is left out of τ is (a τ / s)² / 2 of it.
+//! At the root, |t d| ≤ 2 √m. The correction is taken only where the bend a τ / s is at most [`MOST_BEND`], 1/64. There the line
+//! at t is within |τ d| ≤ s / 64 |d| ≤ r / 64 of the root, so |w| ≤ 65/64 r, on which the 46 v and with them the 23 v below rest.
+//! And the slope w·d is at least 63/64 s. After the first move, what w erred by there counts too, with |w| ≤ r + 8 u |o|.
+//!
+//! ```text
+//! w             v |w| in each move, and 4 u v of the way and of o                  |error| ≤ 2.1 v r + 16 u v √m
+//! w·w - r²      40 v |w|² ≤ 41.3 v r² as a power in pairs, 2 |w| times that of w   |error| ≤ 46 v r² + 33 u v r √m
+//! t             half of that, over the slope                                       |error| ≤ 23.4 v r² / s + 17 u v r √m / s
+//! ```
+//!
+//! Besides, τ is off by these parts of itself:
+//!
+//! ```text
+//! the slope w·d             3 products and sums, w.hi for w, 4 u |w| |d| / |w·d|     ≤ 4.2 u r |d| / s
+//! the operations            the power, its product with 1 / 2 (w·d), the reciprocal, and the sum with the term of 2nd order
+//!                                                                                    ≤ 5 u
+//! w + τ d, and t + τ        2 and where an error is added 1; 1                       ≤ 4 u
+//! what is left out          (a τ / s)² / 2 and terms of higher order                 ≤ (a τ / s)²
+//! ```
 
 use core::cmp::Ordering;
 
@@ -74,8 +90,8 @@ const SLOPE_ERROR: f64 = 5.0 * U;
 const CORRECTION_ERROR: f64 = 12.0 * U;
 /// Of the sum that the root is, in itself.
 const PAIR_ERROR: f64 = 2.0 * V;
-/// Of a point, in the center and in the offset, which is less than twice the radius: of their low parts a sum is rounded, and once more
-/// where the error is added.
+/// Of a point, in the center and in the offset, which is less than twice the radius: of their low parts a sum is rounded, and
+/// once more where the error is added.
 const SUM_ERROR: f64 = 4.0 * V;
 /// The largest a τ / s.
 const MOST_BEND: f64 = 1.0 / 64.0;
@@ -321,9 +337,10 @@ impl Corrected {
 
 /// The hit at a root that is known to a part of itself of 2⁻⁹⁴, if its point is certain; `t` is that root rounded.
 ///
-/// The products with its low part are rounded, too, which is v |o|.
+/// So the point is off by 4,096 v |t d|. The product of the root's low part with d is rounded by v |t d|, its sum with the low
+/// part of w by 2 v |w|, and w by v |w| as said above, where |w| ≤ |t d| + |o|: in all by at most 4,100 v (|t d| + |o|).
 pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Wide) -> Option<Found> {
-    /// 2⁻⁹⁰ of the way, and of |o|.
+    /// Of the way, |o| and r: 2⁻⁹⁰.
     const ERROR: f64 = 65536.0 * V;
     let scaled = Scaled::new(line)?;
     let Scaled { o, d, .. } = scaled;

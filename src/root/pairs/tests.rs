@@ -108,8 +108,8 @@ fn discriminants_from_the_closest_approach_keep_their_bound() {
     );
 }
 
-/// Next to a tangent from afar, with the direction (3, 4, 0) and the normal (-4, 3, 0): a radius that is longer by a few ulps than
-/// the line is off the center.
+/// Next to a tangent from afar, with the direction (3, 4, 0) and the normal (-4, 3, 0): a radius that is longer by a few ulps
+/// than the line is off the center.
 fn next_to_a_tangent_from_afar(random: &mut Random) -> [f64; 10] {
     let whole = |random: &mut Random, places: i32| (random.mantissa() * 2_f64.powi(places)).round();
     // The origin is off the line through the center, which may be so far away that the difference takes a pair.
