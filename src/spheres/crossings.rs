@@ -1,8 +1,11 @@
 //! The crossings that were found and not given yet: the first along the ray first.
 
+use core::cmp::Ordering;
 use core::ops::Range;
 
 use super::queue::Queue;
+use crate::root::Side;
+use crate::root::order::compare_crossings;
 use crate::{Hit, Hittable, Ray, Sphere};
 
 /// For how many crossings there is room without allocating.
@@ -34,7 +37,7 @@ impl Places for &[Sphere] {
 #[derive(Clone, Copy, Debug)]
 struct Crossing {
     hit: Hit,
-    is_exit: bool,
+    side: Side,
     /// The place of the sphere.
     place: usize,
 }
@@ -64,13 +67,11 @@ impl<P: Places> Crossings<P> {
     #[inline(never)]
     pub(super) fn ask(&mut self, place: usize) {
         let Self { places, ray, range, .. } = self;
-        let Some(hit) =
-            places.sphere(place).and_then(|sphere| sphere.intersect(ray, range.clone()))
-        else {
-            return;
-        };
-        let is_exit = !hit.front_face(ray);
-        self.add(Crossing { hit, is_exit, place });
+        let Some(sphere) = places.sphere(place) else { return };
+        let Some(hit) = sphere.intersect(ray, range.clone()) else { return };
+        let is_near = sphere.roots_algebraic(ray).is_some_and(|[near, _]| near == hit.t);
+        let side = if is_near { Side::Near } else { Side::Far };
+        self.add(Crossing { hit, side, place });
     }
 
     /// Asks where the ray leaves the sphere that it has entered.
@@ -89,7 +90,7 @@ impl<P: Places> Crossings<P> {
             sphere.intersect(ray, exit..range.end)
         });
         if let Some(hit) = exit {
-            self.add(Crossing { hit, is_exit: true, place });
+            self.add(Crossing { hit, side: Side::Far, place });
         }
     }
 
@@ -109,8 +110,8 @@ impl<P: Places> Crossings<P> {
     #[inline(always)]
     pub(super) fn take(&mut self) -> Option<(usize, Hit)> {
         let Self { places, ray, found, entered, .. } = self;
-        let Crossing { hit, is_exit, place } = found.pop(|a, b| is_before(places, ray, a, b))?;
-        if !is_exit {
+        let Crossing { hit, side, place } = found.pop(|a, b| is_before(places, ray, a, b))?;
+        if side == Side::Near {
             *entered = Some(place);
         }
         Some((places.index(place), hit))
@@ -123,9 +124,16 @@ fn is_before<P: Places>(places: &P, ray: &Ray, a: &Crossing, b: &Crossing) -> bo
     a.hit.t < b.hit.t || (a.hit.t == b.hit.t && is_before_at_equal_t(places, ray, a, b))
 }
 
-/// Whether it does where both have the same t, rounded.
+/// Whether it does where both have the same t, rounded: by the exact roots, of equal ones by index, of one sphere the entry first.
 #[cold]
 #[inline(never)]
-fn is_before_at_equal_t<P: Places>(places: &P, _ray: &Ray, a: &Crossing, b: &Crossing) -> bool {
-    (places.index(a.place), a.is_exit) < (places.index(b.place), b.is_exit)
+fn is_before_at_equal_t<P: Places>(places: &P, ray: &Ray, a: &Crossing, b: &Crossing) -> bool {
+    if a.place == b.place {
+        return a.side == Side::Near;
+    }
+    let (Some(first), Some(second)) = (places.sphere(a.place), places.sphere(b.place)) else {
+        return false;
+    };
+    let order = compare_crossings(ray, (&first, a.side), (&second, b.side));
+    order.then_with(|| places.index(a.place).cmp(&places.index(b.place))) == Ordering::Less
 }

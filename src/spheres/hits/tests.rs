@@ -8,7 +8,7 @@ use glam::{Vec3, vec3};
 
 use crate::spheres::lanes::Lanes;
 use crate::spheres::tests::families::{FAMILIES, Rng};
-use crate::spheres::tests::{ALL, Scene, above, bits, choose, member, questions, ranges};
+use crate::spheres::tests::{ALL, Scene, above, bits, member, questions, ranges};
 use crate::testing::{Dyadic, ExactChord};
 use crate::{Hit, Hittable, Ray, Sphere, nearest};
 
