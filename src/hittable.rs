@@ -45,7 +45,14 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     /// Returns the nearest hit with `t` > 0 and in `range`, or `None` if there is none.
     ///
     /// To find where the ray leaves a sphere after `hit`, begin the range just above its `t`: at `hit.t.next_up()` or, before Rust
-    /// 1.86, at `f32::from_bits(hit.t.to_bits() + 1)`.
+    /// 1.86, at `f32::from_bits(hit.t.to_bits() + 1)`. Among several spheres, this skips other hits whose `t` is the same. For all of
+    /// them, in order, there is [`SphereBvh::hits`].
+    ///
+    #[cfg_attr(feature = "alloc", doc = "[`SphereBvh::hits`]: crate::SphereBvh::hits")]
+    #[cfg_attr(
+        not(feature = "alloc"),
+        doc = "[`SphereBvh::hits`]: https://docs.rs/eyeray/latest/eyeray/struct.SphereBvh.html#method.hits"
+    )]
     ///
     /// ```
     /// use eyeray::{Hittable, Ray, Sphere};
