@@ -51,8 +51,8 @@ pub(super) struct Crossings<P> {
     pub(super) ray: Ray,
     pub(super) range: Range<f32>,
     found: Queue<Crossing, FEW>,
-    /// The place of the sphere whose entry was given last.
-    entered: Option<usize>,
+    /// The place of the sphere whose entry was given last, and where that is.
+    entered: Option<(usize, f32)>,
 }
 
 impl<P: Places> Crossings<P> {
@@ -69,27 +69,29 @@ impl<P: Places> Crossings<P> {
         let Self { places, ray, range, .. } = self;
         let Some(sphere) = places.sphere(place) else { return };
         let Some(hit) = sphere.intersect(ray, range.clone()) else { return };
-        let is_near = sphere.roots_algebraic(ray).is_some_and(|[near, _]| near == hit.t);
-        let side = if is_near { Side::Near } else { Side::Far };
+        let side = side(&hit, &sphere, ray);
         self.add(Crossing { hit, side, place });
     }
 
     /// Asks where the ray leaves the sphere that it has entered.
     #[inline(always)]
     pub(super) fn ask_for_exit(&mut self) {
-        if let Some(place) = self.entered.take() {
-            self.ask_for_exit_of(place);
+        if let Some((place, t)) = self.entered.take() {
+            self.ask_for_exit_of(place, t);
         }
     }
 
     #[inline(never)]
-    fn ask_for_exit_of(&mut self, place: usize) {
+    fn ask_for_exit_of(&mut self, place: usize, t: f32) {
         let Self { places, ray, range, .. } = self;
-        let exit = places.sphere(place).and_then(|sphere| {
+        let Some(sphere) = places.sphere(place) else { return };
+        let just_after = f32::from_bits(t.to_bits() + 1);
+        let hit = sphere.intersect(ray, just_after..range.end).or_else(|| {
+            // Out of the range, or so close that both round to the same t.
             let [_, exit] = sphere.roots_algebraic(ray)?;
             sphere.intersect(ray, exit..range.end)
         });
-        if let Some(hit) = exit {
+        if let Some(hit) = hit {
             self.add(Crossing { hit, side: Side::Far, place });
         }
     }
@@ -112,10 +114,31 @@ impl<P: Places> Crossings<P> {
         let Self { places, ray, found, entered, .. } = self;
         let Crossing { hit, side, place } = found.pop(|a, b| is_before(places, ray, a, b))?;
         if side == Side::Near {
-            *entered = Some(place);
+            *entered = Some((place, hit.t));
         }
         Some((places.index(place), hit))
     }
+}
+
+/// On which side of the sphere a hit is.
+#[inline(always)]
+fn side(hit: &Hit, sphere: &Sphere, ray: &Ray) -> Side {
+    /// The square of a cosine that is certain to have the right sign. A coordinate of the normal is within 2 ulp of 1.
+    const CERTAIN: f32 = 1.0 / 1_099_511_627_776.0; // 2^-40
+
+    let along = hit.normal.dot(ray.direction);
+    if along * along > CERTAIN * ray.direction.length_squared() {
+        if along < 0.0 { Side::Near } else { Side::Far }
+    } else {
+        side_by_roots(hit, sphere, ray)
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn side_by_roots(hit: &Hit, sphere: &Sphere, ray: &Ray) -> Side {
+    let is_near = sphere.roots_algebraic(ray).is_some_and(|[near, _]| near == hit.t);
+    if is_near { Side::Near } else { Side::Far }
 }
 
 /// Whether a crossing comes before another.
@@ -124,13 +147,11 @@ fn is_before<P: Places>(places: &P, ray: &Ray, a: &Crossing, b: &Crossing) -> bo
     a.hit.t < b.hit.t || (a.hit.t == b.hit.t && is_before_at_equal_t(places, ray, a, b))
 }
 
-/// Whether it does where both have the same t, rounded: by the exact roots, of equal ones by index, of one sphere the entry first.
+/// Whether it does where both have the same t, rounded: by the exact roots, of equal ones by index. They are not of one
+/// sphere, whose exit is found after its entry was taken.
 #[cold]
 #[inline(never)]
 fn is_before_at_equal_t<P: Places>(places: &P, ray: &Ray, a: &Crossing, b: &Crossing) -> bool {
-    if a.place == b.place {
-        return a.side == Side::Near;
-    }
     let (Some(first), Some(second)) = (places.sphere(a.place), places.sphere(b.place)) else {
         return false;
     };
