@@ -142,19 +142,30 @@ fn side_by_roots(hit: &Hit, sphere: &Sphere, ray: &Ray) -> Side {
 }
 
 /// Whether a crossing comes before another.
+///
+/// They are told apart by value: a reference would keep each in memory, from where it is loaded long before it has arrived.
 #[inline(always)]
 fn is_before<P: Places>(places: &P, ray: &Ray, a: &Crossing, b: &Crossing) -> bool {
-    a.hit.t < b.hit.t || (a.hit.t == b.hit.t && is_before_at_equal_t(places, ray, a, b))
+    a.hit.t < b.hit.t
+        || (a.hit.t == b.hit.t
+            && is_before_at_equal_t(places, ray, (a.place, a.side), (b.place, b.side)))
 }
 
 /// Whether it does where both have the same t, rounded: by the exact roots, of equal ones by index. They are not of one
 /// sphere, whose exit is found after its entry was taken.
 #[cold]
 #[inline(never)]
-fn is_before_at_equal_t<P: Places>(places: &P, ray: &Ray, a: &Crossing, b: &Crossing) -> bool {
-    let (Some(first), Some(second)) = (places.sphere(a.place), places.sphere(b.place)) else {
+fn is_before_at_equal_t<P: Places>(
+    places: &P,
+    ray: &Ray,
+    (first, first_side): (usize, Side),
+    (second, second_side): (usize, Side),
+) -> bool {
+    let [Some(first_sphere), Some(second_sphere)] =
+        [first, second].map(|place| places.sphere(place))
+    else {
         return false;
     };
-    let order = compare_crossings(ray, (&first, a.side), (&second, b.side));
-    order.then_with(|| places.index(a.place).cmp(&places.index(b.place))) == Ordering::Less
+    let order = compare_crossings(ray, (&first_sphere, first_side), (&second_sphere, second_side));
+    order.then_with(|| places.index(first).cmp(&places.index(second))) == Ordering::Less
 }
