@@ -5,6 +5,7 @@ use core::iter;
 use core::ops::Range;
 
 use crate::rejection::HAS_VECTORS;
+use crate::sealed::Crate;
 use crate::{Hit, Ray, Vector};
 
 /// A trait for everything that a ray can hit: a sphere, many spheres, or a shape of your own.
@@ -121,11 +122,11 @@ pub trait Hittable<V: Vector = glam::Vec3> {
         true
     }
 
-    /// Returns which of four objects [may be hit](Self::may_hit), as a bit mask: bit `1 << i` stands for `objects[i]`.
-    ///
-    /// On targets with vectors of four numbers, [`nearest`] and slices test four objects at a time.
+    /// Which of four objects [may be hit](Self::may_hit): the bit `1 << i` is that of `objects[i]`. Only this crate can call it or
+    /// implement it, so that it may change.
+    #[doc(hidden)]
     #[inline]
-    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32
+    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>, _: Crate) -> u32
     where
         Self: Sized,
     {
@@ -285,7 +286,7 @@ impl<'a, H> Candidates<'a, H> {
                 self.next = index + 1;
                 return Some((index, self.objects.get(index)?));
             };
-            self.passed = H::may_hit_four(four, ray, range.clone());
+            self.passed = H::may_hit_four(four, ray, range.clone(), Crate(()));
             self.next += 4;
         }
         let index = self.next - 4 + self.passed.trailing_zeros() as usize;

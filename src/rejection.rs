@@ -49,6 +49,7 @@
 
 use glam::{DVec3, Mat4, Vec3, Vec4};
 
+use crate::sealed::{Internal, Operation};
 use crate::{Ray, Scalar, Sphere, Vector};
 
 /// The constants of the derivation above in a precision.
@@ -87,7 +88,7 @@ pub(crate) const HAS_VECTORS: bool =
 // Inlined always, as all here: so that a loop computes once what is the ray's.
 #[inline(always)]
 pub(crate) fn may_hit<V: Vector>(sphere: &Sphere<V>, ray: &Ray<V>, end: V::Scalar) -> bool {
-    may_hit_within(V::Scalar::MARGIN, sphere, ray, end)
+    V::perform(One { sphere, ray, end })
 }
 
 /// Which of the spheres the ray may hit before `end`: the bit `1 << i` is that of `spheres[i]`.
@@ -97,7 +98,45 @@ pub(crate) fn may_hit_four<V: Vector>(
     ray: &Ray<V>,
     end: V::Scalar,
 ) -> u32 {
-    V::may_hit_four_within(V::Scalar::MARGIN, spheres, ray, end)
+    V::perform(Four { spheres, ray, end })
+}
+
+/// [`may_hit`].
+struct One<'a, V: Vector> {
+    sphere: &'a Sphere<V>,
+    ray: &'a Ray<V>,
+    end: V::Scalar,
+}
+
+impl<V: Vector> Operation<V> for One<'_, V> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool
+    where
+        V: Internal,
+    {
+        may_hit_within(V::Scalar::MARGIN, self.sphere, self.ray, self.end)
+    }
+}
+
+/// [`may_hit_four`].
+struct Four<'a, V: Vector> {
+    spheres: [&'a Sphere<V>; 4],
+    ray: &'a Ray<V>,
+    end: V::Scalar,
+}
+
+impl<V: Vector> Operation<V> for Four<'_, V> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run(self) -> u32
+    where
+        V: Internal,
+    {
+        V::may_hit_four_within(V::Scalar::MARGIN, self.spheres, self.ray, self.end)
+    }
 }
 
 /// The rejection in a precision.
@@ -178,7 +217,7 @@ impl Rejection for DVec3 {
 }
 
 #[inline(always)]
-fn may_hit_within<V: Vector>(
+fn may_hit_within<V: Internal>(
     margin: V::Scalar,
     sphere: &Sphere<V>,
     ray: &Ray<V>,
@@ -194,7 +233,7 @@ fn may_hit_within<V: Vector>(
 
 /// Whether the segment up to `end` may come as near as the radius.
 #[inline(always)]
-fn is_near_segment<S: Scalar>(power: S, h: S, [a, one_over_a]: [S; 2], end: S) -> bool {
+fn is_near_segment<S: Scalar + Bounds>(power: S, h: S, [a, one_over_a]: [S; 2], end: S) -> bool {
     let longest = a * end;
     // Comparisons that are one instruction each: `f32::clamp` looks for NaN.
     let s = if h > S::ZERO { h } else { S::ZERO };
@@ -204,13 +243,13 @@ fn is_near_segment<S: Scalar>(power: S, h: S, [a, one_over_a]: [S; 2], end: S) -
 
 /// Whether such a result rejects.
 #[inline(always)]
-fn is_clear<S: Scalar>(clearance: S) -> bool {
+fn is_clear<S: Scalar + Bounds>(clearance: S) -> bool {
     clearance > S::LEAST && clearance < S::INFINITY
 }
 
 /// a, and 1 / a increased by twice the margin, or NaN for unusual directions.
 #[inline(always)]
-fn squares<V: Vector>(margin: V::Scalar, ray: &Ray<V>) -> [V::Scalar; 2] {
+fn squares<V: Internal>(margin: V::Scalar, ray: &Ray<V>) -> [V::Scalar; 2] {
     let a = ray.direction.dot(ray.direction);
     let [least, largest] = V::Scalar::SQUARES;
     let is_usual = a >= least && a <= largest;
@@ -225,7 +264,7 @@ mod tests {
     use crate::Hittable;
 
     /// How many of the hits of random rays that graze a sphere, or end where they meet it, are rejected with that margin.
-    fn rejected<V: Vector>(margin: V::Scalar, above: fn(V::Scalar) -> V::Scalar) -> u32 {
+    fn rejected<V: Internal>(margin: V::Scalar, above: fn(V::Scalar) -> V::Scalar) -> u32 {
         const CASES: u32 = 60_000;
         let empty = Sphere::new(V::from_f64(DVec3::splat(1e6)), V::Scalar::ZERO);
         let mut hits = 0;
