@@ -7,7 +7,7 @@ use glam::Vec3;
 const LEAF: usize = 4;
 
 /// A tree of boxes, split at the median of the longest axis.
-pub struct Tree {
+pub(crate) struct Tree {
     /// The root first.
     nodes: Vec<Node>,
     /// In the order of the leaves, with their indices.
@@ -26,7 +26,7 @@ enum Content {
 }
 
 impl Tree {
-    pub fn new(spheres: &[Sphere]) -> Self {
+    pub(crate) fn new(spheres: &[Sphere]) -> Self {
         let spheres: Vec<_> = spheres.iter().copied().zip(0..).collect();
         let mut tree = Self { nodes: Vec::new(), spheres };
         tree.split(0, tree.spheres.len());
@@ -55,7 +55,7 @@ impl Tree {
     }
 
     /// The distances and the indices of all crossings ahead, by ascending distance.
-    pub fn crossings(&self, ray: &Ray) -> Vec<(f32, usize)> {
+    pub(crate) fn crossings(&self, ray: &Ray) -> Vec<(f32, usize)> {
         let reciprocal = ray.direction.recip();
         let mut crossings = Vec::new();
         let mut waiting = vec![0];

@@ -164,6 +164,7 @@ impl Iterator for ScanHits<'_> {
 
 /// An iterator over crossings.
 #[derive(Clone)]
+#[expect(clippy::large_enum_variant, reason = "a box would be allocated for every ray")]
 pub(super) enum Hits<'a> {
     Scan(ScanHits<'a>),
     Tree(hierarchy::Hits<'a>),
