@@ -43,6 +43,9 @@ pub trait Vector:
     /// The vector of two dimensions of the same precision, for points of the view plane and for pixels.
     type Vec2: Copy + Debug + Default + PartialEq + Send + Sync + 'static;
 
+    /// The zero vector.
+    const ZERO: Self;
+
     /// Converts the vector to `f64`, exactly.
     fn to_f64(self) -> DVec3;
 
@@ -119,6 +122,8 @@ impl Vector for Vec3 {
     type Scalar = f32;
     type Vec2 = Vec2;
 
+    const ZERO: Self = Self::ZERO;
+
     #[inline]
     fn to_f64(self) -> DVec3 {
         self.as_dvec3()
@@ -148,6 +153,8 @@ impl Vector for Vec3 {
 impl Vector for DVec3 {
     type Scalar = f64;
     type Vec2 = DVec2;
+
+    const ZERO: Self = Self::ZERO;
 
     #[inline]
     fn to_f64(self) -> DVec3 {

@@ -74,7 +74,8 @@ impl Format {
         if relative_error.is_nan() || relative_error >= 0.25 {
             return None;
         }
-        let error = t.hi.abs() * relative_error;
+        // The least is for what may underflow.
+        let error = t.hi.abs() * relative_error + f64::MIN_POSITIVE;
         let [[low], [high]] = self.ends([t.hi], [t.lo], [error]);
         // In bits, because an interval around zero has two.
         if low.to_bits() == high.to_bits() {

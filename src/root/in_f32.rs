@@ -12,7 +12,7 @@ use super::halves;
 use super::plain::{self, Both, Nearest};
 use super::points::{self, Crossing, Near};
 use super::precision::Precision;
-use super::{both_carefully, integers, nearest_carefully, root_carefully, surface};
+use super::{both_carefully, exit_carefully, integers, nearest_carefully, root_carefully, surface};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::number::Triple;
@@ -67,16 +67,17 @@ impl Setting {
     /// What the foot is off by along d counts in l² only by its square, which is next to nothing.
     ///
     /// A root of the plain step has l > 2⁻¹⁶ |o|, and both the foot and l are off by less than 2⁻³¹ r. The other roots are those
-    /// of [`half_chord_from_afar`], whose bounds include these.
+    /// of [`half_chord_from_afar`], whose bounds include these. The far crossing is as far from the foot as the near one.
     #[inline(always)]
-    fn found_from_afar(&self, chord: &Chord<f64>, rounded: f32) -> Found {
+    fn found_from_afar(&self, chord: &Chord<f64>, side: Side, rounded: f32) -> Found {
         let Self { line, o, radius_squared } = *self;
         let per_a = chord.a.recip();
         // From the center to the closest approach, and the square of half the chord's length.
         let foot = line.direction * (chord.h * per_a) - o;
         let square = radius_squared - foot.length_squared();
         let along = if is_not_positive(square) { 0.0 } else { sqrt(square * per_a) };
-        let offset = foot - line.direction * along;
+        let along = if side == Side::Near { -along } else { along };
+        let offset = foot + line.direction * along;
         let normal = offset * line.radius.recip();
         Found { t: rounded.into(), point: line.center + offset, normal }
     }
@@ -106,7 +107,7 @@ impl Setting {
 #[inline(never)]
 #[expect(clippy::cast_possible_truncation, reason = "it is rounded already")]
 fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
-    let side = if half_chord > 0.0 { Side::Near } else { Side::Far };
+    let side = side_of(half_chord);
     if Format::F32.has_few_steps() {
         return root_carefully(line, Format::F32, side).map(|t| t as f32);
     }
@@ -138,7 +139,7 @@ fn from_the_surface(line: &Line, chord: Chord<f64>, range: Range<f32>) -> Verdic
     }
     let t = 2.0 * h / a;
     let rounded = t as f32;
-    if !rounds_safely::<MARGIN>(t) || rounded < f32::MIN_POSITIVE {
+    if !rounds_safely::<MARGIN>(t) || rounded <= f32::MIN_POSITIVE {
         return Verdict::Doubt;
     }
     if !range.contains(&rounded) {
@@ -170,27 +171,47 @@ fn nearest_again(
     let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
     let nearest =
         if is_far { from_afar(&setting, &chord) } else { setting.nearest_ahead(&chord, true) };
-    let rounded = match nearest {
+    let carefully = || nearest_carefully(line, Format::F32, start.into()..end.into());
+    let (t, half_chord) = match nearest {
         Nearest::Miss => return None,
-        Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) => Some((t, t as f32)),
-        Nearest::Root { t, half_chord } => {
-            round_carefully(line, t, half_chord).map(|rounded| (t, rounded))
-        }
-        Nearest::Doubt if is_far || Format::F32.has_few_steps() => None,
+        Nearest::Root { t, half_chord } => (t, half_chord),
+        Nearest::Doubt if is_far || Format::F32.has_few_steps() => return carefully(),
         Nearest::Doubt => match from_the_surface(line, chord, start..end) {
             Verdict::Miss => return None,
             Verdict::Hit(found) => return Some(found),
-            Verdict::Doubt => None,
+            Verdict::Doubt => return carefully(),
         },
     };
-    // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
-    let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
-    let Some((t, rounded)) = rounded.filter(|(_, rounded)| is_certain(*rounded)) else {
-        return nearest_carefully(line, Format::F32, start.into()..end.into());
+    // Rounding is another matter below the normal numbers, and of what is rounded up to the smallest of them.
+    let round = |t: f64, half_chord: f64| {
+        let rounded = if rounds_safely::<MARGIN>(t) {
+            Some(t as f32)
+        } else {
+            round_carefully(line, t, half_chord)
+        };
+        rounded.filter(|&rounded| rounded > f32::MIN_POSITIVE)
     };
-    (rounded < end).then(|| {
-        if is_far { setting.found_from_afar(&chord, rounded) } else { setting.found(t, rounded) }
+    let Some(rounded) = round(t, half_chord) else { return carefully() };
+    let (t, half_chord, rounded) = if rounded < start && half_chord > 0.0 {
+        let (t, half_chord) = (plain::far_root(&chord, half_chord), -half_chord);
+        let Some(rounded) = round(t, half_chord) else { return carefully() };
+        (t, half_chord, rounded)
+    } else {
+        (t, half_chord, rounded)
+    };
+    (start..end).contains(&rounded).then(|| {
+        if is_far {
+            setting.found_from_afar(&chord, side_of(half_chord), rounded)
+        } else {
+            setting.found(t, rounded)
+        }
     })
+}
+
+/// The side of a root of the plain step, by the sign of its half-chord.
+#[inline(always)]
+fn side_of(half_chord: f64) -> Side {
+    if half_chord > 0.0 { Side::Near } else { Side::Far }
 }
 
 /// Finds half the chord of a line from farther than [`NEAR`] by the closest approach.
@@ -265,27 +286,49 @@ fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Op
     let chord = setting.chord::<D>();
     match setting.nearest_ahead(&chord, false) {
         Nearest::Miss => return None,
-        Nearest::Root { t, .. } => {
+        Nearest::Root { t, half_chord } => {
             let rounded = t as f32;
-            // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
-            if rounds_safely::<MARGIN>(t) && rounded >= range.start && rounded >= f32::MIN_POSITIVE
-            {
+            // Down to the smallest normal number, rounding is another matter.
+            let is_certain = rounds_safely::<MARGIN>(t) && rounded > f32::MIN_POSITIVE;
+            if is_certain && rounded >= range.start {
                 // Not where that is NaN.
                 let is_in_range = rounded < range.end;
                 if !is_in_range {
                     return None;
                 }
                 let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
+                // From so far outside, it is the near one.
+                let side = Side::Near;
                 if is_far && HAS_F64 {
                     // Apart, so that the compiler need not keep what only one of the two needs.
-                    return Some(hit(sphere, ray, setting.found_from_afar(&chord, rounded)));
+                    return Some(hit(sphere, ray, setting.found_from_afar(&chord, side, rounded)));
                 }
                 let found = if is_far {
-                    setting.found_from_afar(&chord, rounded)
+                    setting.found_from_afar(&chord, side, rounded)
                 } else {
                     setting.found(t, rounded)
                 };
                 return Some(hit(sphere, ray, found));
+            }
+            // Where the near root is below the range, the far one may be in it.
+            if is_certain && HAS_F64 {
+                if half_chord < 0.0 {
+                    return None;
+                }
+                let t = plain::far_root(&chord, half_chord);
+                if rounds_safely::<MARGIN>(t) {
+                    let rounded = t as f32;
+                    if !range.contains(&rounded) {
+                        return None;
+                    }
+                    let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
+                    let found = if is_far {
+                        setting.found_from_afar(&chord, Side::Far, rounded)
+                    } else {
+                        setting.found(t, rounded)
+                    };
+                    return Some(hit(sphere, ray, found));
+                }
             }
         }
         Nearest::Doubt => {}
@@ -309,12 +352,21 @@ impl Precision for Vec3 {
     const LEAST_POSITIVE: f64 = f32::from_bits(1) as f64;
 
     #[inline(always)]
+    fn next_above(t: f32) -> f32 {
+        f32::from_bits(t.to_bits().wrapping_add(1))
+    }
+
+    #[inline(always)]
     fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
         if HAS_F64 {
             intersect::<D>(sphere, ray, range)
         } else {
             intersect_by_a_call::<D>(sphere, ray, range)
         }
+    }
+
+    fn exit_at_same_t(sphere: &Sphere, ray: &Ray) -> Option<Hit> {
+        Some(hit(sphere, ray, exit_carefully(&Line::new(sphere, ray), Format::F32)?))
     }
 
     #[inline(always)]
@@ -341,7 +393,9 @@ impl Precision for Vec3 {
 fn surely_rounded([near, far]: [f64; 2]) -> Option<[f32; 2]> {
     if rounds_safely::<MARGIN>(near) && rounds_safely::<MARGIN>(far) {
         let rounded = [near as f32, far as f32];
-        if rounded[0].is_normal() && rounded[1].is_normal() {
+        // As for the nearest root.
+        let is_certain = |rounded: f32| rounded.is_normal() && rounded.abs() != f32::MIN_POSITIVE;
+        if is_certain(rounded[0]) && is_certain(rounded[1]) {
             return Some(rounded);
         }
     }
@@ -353,7 +407,8 @@ fn surely_rounded([near, far]: [f64; 2]) -> Option<[f32; 2]> {
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded already")]
 fn hit(sphere: &Sphere, ray: &Ray, found: Found) -> Hit {
     let (t, point) = (found.t as f32, found.point.as_vec3());
-    Hit { t, point, normal: found.normal.as_vec3(), error: point_error(t, sphere, ray) }
+    let (normal, error) = (found.normal.as_vec3(), point_error(t, sphere, ray));
+    Hit { t, point, normal, error }
 }
 
 /// How far off the point may be besides the rounding of its coordinates, and more: see [`Hit::clearance`].

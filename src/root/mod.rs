@@ -50,7 +50,6 @@ mod halves;
 mod in_f32;
 mod in_f64;
 mod integers;
-#[allow(dead_code, reason = "until slices ask it")]
 pub(crate) mod order;
 mod pairs;
 mod plain;
@@ -68,12 +67,20 @@ use format::Format;
 use integers::Exact;
 
 #[cfg(test)]
+mod any_exponent;
+#[cfg(test)]
 mod tests;
 
 /// Finds the nearest hit, where the plain steps leave a doubt.
 #[inline(always)]
 fn nearest_carefully(line: &Line, format: Format, range: Range<f64>) -> Option<Found> {
     ask_carefully(line, format, &Question::Nearest(range))?.nearest()
+}
+
+/// Finds where the ray leaves, if t is finite and above 0 there. No plain step is asked: the two crossings may be very close.
+#[inline(always)]
+fn exit_carefully(line: &Line, format: Format) -> Option<Found> {
+    ask_carefully(line, format, &Question::Exit)?.nearest()
 }
 
 /// Finds both roots, ascending, where the plain steps leave a doubt.

@@ -115,8 +115,8 @@ pub(super) struct InPairs<'a> {
 
 /// w = t d - o. Where it is next to nothing beside o, the low part need not be small beside the high one.
 #[inline(always)]
-fn offset(Scaled { o, d, .. }: &Scaled, t: f64) -> Triple<Pair> {
-    o.zip(*d, |o, d| {
+pub(super) fn offset(o: Triple<Pair>, d: Triple<f64>, t: f64) -> Triple<Pair> {
+    o.zip(d, |o, d| {
         let step = two_product(t, d);
         let high = two_difference(step.hi, o.hi);
         let low = two_difference(step.lo, o.lo);
@@ -151,7 +151,7 @@ pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
     }
 
     let start = h / a;
-    let w = offset(&near.scaled, start).map(|w| two_sum(w.hi, w.lo));
+    let w = offset(near.scaled.o, near.scaled.d, start).map(|w| two_sum(w.hi, w.lo));
     let (power, larger) = power_in_pairs(w, radius);
     let along = compensated_dot(d, w.map(|w| w.hi));
     let along = along.hi + (along.lo + d.dot(w.map(|w| w.lo)));
@@ -187,7 +187,7 @@ impl InPairs<'_> {
         let Scaled { d, radius, .. } = self.scaled;
         let along = if side == Side::Near { h - half_chord } else { h + half_chord };
         let way = along / a;
-        let w = offset(&self.scaled, way);
+        let w = offset(self.scaled.o, self.scaled.d, way);
         let (power, _) = power_in_pairs(w, radius);
         let inverse_slope = (2.0 * w.map(|w| w.hi).dot(d)).recip();
         let q = power.hi * inverse_slope;
@@ -213,13 +213,23 @@ impl InPairs<'_> {
         root.error * self.length + of_offset
     }
 
-    /// How the root on that side compares with a number midway between its neighbors.
+    /// How the root on that side compares with a number midway between its neighbors, in scaled units.
+    ///
+    /// A number within 3 times the error is nearer to this root than to the other: they are 2 s / a apart. By the moved origin
+    /// s² > 192 v a r² + 1280 u v a r √m, so that what the power errs by makes less than s / 8 a, and the correction, at most s / 64 a,
+    /// brings half of that at most; of a plain discriminant, both are less; and 2 v |t| is next to nothing beside s / a > 2⁻⁷² |t|.
     #[inline(always)]
-    fn compare(&self, side: Side, number: Midpoint) -> Ordering {
+    fn compare(&self, side: Side, root: &Corrected, number: Midpoint) -> Ordering {
+        let above = root.above(number);
+        if above.abs() > 2.0 * (root.error + PAIR_ERROR * root.t.hi.abs()) {
+            return if above > 0.0 { Ordering::Greater } else { Ordering::Less };
+        }
+        let exponent = number.exponent + self.scaled.exponent();
+        let number = Midpoint { exponent, ..number };
         let certain = if self.scaled.is_scaled() { None } else { quadratic_at(self.line, number) };
         match (certain, side) {
             (None, _) => integers::compare_root(self.line, side, number),
-            // So close to a root of this chord, outside is before the near one and behind the far one.
+            // Nearer to this root than to the other, outside is before the near one and behind the far one.
             (Some(quadratic), Side::Near) => quadratic,
             (Some(quadratic), Side::Far) => quadratic.reverse(),
         }
@@ -247,9 +257,10 @@ fn quadratic_at(line: &Line, number: Midpoint) -> Option<Ordering> {
     let dropped = exact.x.1 + exact.y.1 + exact.z.1;
     let w = Triple { x: exact.x.0, y: exact.y.0, z: exact.z.0 };
     let (power, error) = surface::closest_power(w, line.radius);
-    // 0 only where all is exact.
+    // 0 only where all is exact: what is dropped counts, and its products may underflow.
     let size = w.x.hi.abs() + w.y.hi.abs() + w.z.hi.abs();
-    let error = error + 3.0 * (size + dropped) * dropped;
+    let of_dropped = 3.0 * (size + dropped) * dropped + f64::MIN_POSITIVE;
+    let error = if dropped == 0.0 { error } else { error + of_dropped };
     if power.hi.abs() > error || error == 0.0 { power.hi.partial_cmp(&0.0) } else { None }
 }
 
@@ -260,14 +271,8 @@ impl Crossings for InPairs<'_> {
     fn root(&mut self, side: Side) -> Option<(f64, Corrected)> {
         let corrected = self.corrected(side)?;
         let relative_error = corrected.error / corrected.t.hi.abs() + PAIR_ERROR;
-        let exponent = self.scaled.exponent();
-        let t = self.format.round(
-            corrected.t,
-            relative_error,
-            |Midpoint { integer, exponent: unit }| {
-                self.compare(side, Midpoint { integer, exponent: unit + exponent })
-            },
-        )?;
+        let compare = |number| self.compare(side, &corrected, number);
+        let t = self.format.round(corrected.t, relative_error, compare)?;
         Some((self.scaled.unscaled_root(t)?, corrected))
     }
 
@@ -278,6 +283,16 @@ impl Crossings for InPairs<'_> {
 }
 
 impl Corrected {
+    /// By how much it is above a number next to it, but for the last place of that difference.
+    #[inline(always)]
+    fn above(&self, Midpoint { integer, exponent }: Midpoint) -> f64 {
+        // The number is odd: an even one, of 53 bits and no larger, and 1. So next to it both differences are exact.
+        let one = integer.signum();
+        #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
+        let [even, one] = [integer - one, one].map(|part| scale(part as f64, exponent));
+        ((self.t.hi - even) - one) + self.t.lo
+    }
+
     /// From the center to where the line is there.
     #[inline(always)]
     fn offset(&self, Scaled { d, .. }: &Scaled) -> Triple<Pair> {
@@ -347,7 +362,7 @@ pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Wide) -> Option<
     let o = o.map(|o| o.hi);
     let length = sqrt(d.dot(d));
     let root = root.scaled(-scaled.exponent());
-    let w = offset(&scaled, root.hi);
+    let w = offset(scaled.o, scaled.d, root.hi);
     let reach = sqrt(o.dot(o)) + scaled.radius + root.hi.abs() * length;
     let error = integers::ROOT_ERROR * root.hi.abs();
     let root = Corrected { t: root, error, w, correction: root.lo };

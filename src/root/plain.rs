@@ -40,6 +40,9 @@
 //! u, of which h takes 1,024 and the roundings 6. The largest term of the second order is that of the square root, which errs by
 //! δ / 2 s and at most (δ / 2 s) (δ / s²) more where the discriminant errs by δ. Because |h| + s ≤ 2 √(a m), s is above clear √(a
 //! m) / 2, so δ / s² < 84 u / clear² < 2⁻¹⁴, and the term takes less than 50 u.
+//!
+//! **The far root**, where the near one is not in the range asked for: t = (h + s) / a. An accepted root has s (|h| + s) > clear a m,
+//! as was said, and so this root errs by what the discriminant, h, a and the roundings bring, which is less than the above.
 
 use super::chord::Chord;
 use crate::arithmetic::comparison::{exceeds, is_not_positive, product_exceeds};
@@ -139,6 +142,12 @@ pub(super) fn nearest_ahead(
         }
     }
     Nearest::Doubt
+}
+
+/// The far root, from half the chord of a near one that is accepted, with the same bound on its error.
+#[inline(always)]
+pub(super) fn far_root(&Chord { a, h, .. }: &Chord<f64>, half_chord: f64) -> f64 {
+    (h + half_chord) / a
 }
 
 /// Both roots.

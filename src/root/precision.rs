@@ -12,12 +12,22 @@ pub trait Precision: Sized {
     /// The smallest number above 0.
     const LEAST_POSITIVE: f64;
 
+    /// The float after one that is positive and finite.
+    fn next_above(t: Self::Scalar) -> Self::Scalar
+    where
+        Self: Vector;
+
     /// Where the ray meets the sphere first with `t` in `range`.
     fn intersect<D: Derivation>(
         sphere: &Sphere<Self>,
         ray: &Ray<Self>,
         range: Range<Self::Scalar>,
     ) -> Option<Hit<Self>>
+    where
+        Self: Vector;
+
+    /// Where the ray leaves the sphere, if `t` is above 0 and finite there, told from where it enters even if both have the same `t`.
+    fn exit_at_same_t(sphere: &Sphere<Self>, ray: &Ray<Self>) -> Option<Hit<Self>>
     where
         Self: Vector;
 

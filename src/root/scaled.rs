@@ -74,7 +74,7 @@ impl Scaled {
             return Some(t);
         }
         let unscaled = scale(t, self.exponent());
-        (unscaled.abs() >= f64::MIN_POSITIVE).then_some(unscaled)
+        (unscaled.abs() > f64::MIN_POSITIVE).then_some(unscaled)
     }
 
     /// Whether the units are not the caller's.

@@ -13,10 +13,8 @@
 //! certain whether a number is positive, negative or zero, and its size is known within [`ERROR`] of itself. [`Surd::round`]
 //! needs no more.
 //!
-//! The integers have as many digits as it takes. Lengths are multiples of one power of two, and directions of another.
-//! Between the smallest and the largest `f32` lie 277 binary places, and 2,098 for `f64`. The widest numbers are those of the
-//! normal: A has three times as many places, and 150 or 1,075 more down to the midpoint next to zero, in all 986 bits or 7,380;
-//! the norm has twice as many.
+//! The integers have as many digits as it takes: [`digits`] of them. Lengths are multiples of one power of two, and directions of
+//! another.
 
 use glam::DVec3;
 
@@ -32,10 +30,22 @@ use crate::arithmetic::scaling::{integer_and_exponent, scale};
 #[cfg(test)]
 mod tests;
 
-/// The digits of an integer for lines in each precision: room for the norm, the digit that a sum has to spare, and zeros at the
-/// top of the factors.
-pub(super) const F32_DIGITS: usize = (2304 / PLACES) as usize;
-pub(super) const F64_DIGITS: usize = (15_360 / PLACES) as usize;
+/// The digits of an integer for lines in each precision.
+pub(super) const F32_DIGITS: usize = digits(-149, 128);
+pub(super) const F64_DIGITS: usize = digits(-1074, 1024);
+
+/// The digits of the largest integer for lines of numbers that are multiples of 2^`least` and below 2^`most`: no sum has more.
+///
+/// With p binary places between these two, d is below 2ᵖ and o below twice that, in each coordinate. The widest number is that of
+/// the normal. Its A, h d - a o, is below 2³ᵖ⁺⁵, as is every sum on the way to it. B √D is less, and where a multiple of a place is
+/// subtracted, less than twice as much is left. The place may be as fine as the midpoint next to zero, half of 2^`least`, where the
+/// unit of A is at most 1. The norm has twice as many places. A sum has one digit more than the product that is added.
+const fn digits(least: i32, most: i32) -> usize {
+    let places = (most - least).unsigned_abs();
+    let finer = (1 - least).unsigned_abs();
+    let rational = (3 * places + 6 + finer).div_ceil(PLACES);
+    (2 * rational + 1) as usize
+}
 
 /// How far off what is left of a number may be, as a part of itself.
 ///

@@ -47,6 +47,8 @@ pub(super) fn power_in_pairs(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) 
     let distance_squared = compensated_dot(o, o);
     let difference = two_difference(distance_squared.hi, radius_squared.hi);
     let low = (distance_squared.lo - radius_squared.lo) + 2.0 * o.dot(o_low);
+    // Where the difference is smaller than the low part, at most 8 u m, it is that of squares within twice each other, and so a
+    // multiple of 2⁻⁵⁴ m, far above the last place of the low part.
     let power = fast_two_sum(difference.hi, difference.lo + low);
     (power, distance_squared.hi.max(radius_squared.hi))
 }
@@ -75,6 +77,8 @@ pub(super) fn power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
 }
 
 /// The same, with an error of what there is of a rest: for where the power is likely to be 0, or next to it.
+///
+/// It is 0 for sure only where every term is exact: where o is a number in each coordinate, and no square underflows.
 #[cold]
 #[inline(never)]
 pub(super) fn closest_power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
@@ -82,12 +86,8 @@ pub(super) fn closest_power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
     /// and that to the low part of the whole, 10 in all. The magnitudes are rounded as often, which is of the second order.
     const REST_ERROR: f64 = 16.0 * U;
     let (power, rest) = Terms::new(exact_o, radius).sum();
-    let is_zero = power.hi == 0.0
-        && rest == 0.0
-        && is_whole(radius)
-        && is_whole(exact_o.x.hi)
-        && is_whole(exact_o.y.hi)
-        && is_whole(exact_o.z.hi);
+    let Triple { x, y, z } = exact_o.map(|o| o.lo == 0.0 && is_whole(o.hi));
+    let is_zero = power.hi == 0.0 && rest == 0.0 && is_whole(radius) && x && y && z;
     // The least is for what may underflow.
     let error = REST_ERROR * rest + 2.0 * V * power.hi.abs() + f64::MIN_POSITIVE;
     (power, if is_zero { 0.0 } else { error })

@@ -7,12 +7,12 @@ use super::crossings::Crossings;
 use super::hierarchy;
 use super::lanes::Lanes;
 use super::{SphereBvh, Spheres};
-use crate::{Hit, Ray, Sphere};
+use crate::{Hit, Ray, Sphere, Vector};
 
 #[cfg(test)]
 mod tests;
 
-impl Spheres {
+impl<V: Vector> Spheres<V> {
     /// Returns an iterator over every crossing of the ray with a sphere, nearest first, each with the index of its sphere.
     ///
     /// It returns what [`SphereBvh::hits`] returns, which has more examples, in the same order. All spheres are filtered for the first
@@ -33,15 +33,20 @@ impl Spheres {
     #[doc(alias("all_hits", "raycast_all", "intersect_all", "multi_hit"))]
     pub fn hits(
         &self,
-        ray: &Ray,
-        range: Range<f32>,
-    ) -> impl FusedIterator<Item = (usize, Hit)> + Clone + use<'_> {
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> impl FusedIterator<Item = (usize, Hit<V>)> + Clone + use<'_, V> {
         self.hits_in_lanes(Lanes::best(), ray, range)
     }
 
     /// The same with that set of instructions.
     #[inline(always)]
-    pub(super) fn hits_in_lanes(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> ScanHits<'_> {
+    pub(super) fn hits_in_lanes(
+        &self,
+        lanes: Lanes,
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> ScanHits<'_, V> {
         ScanHits {
             spheres: self,
             lanes,
@@ -51,7 +56,7 @@ impl Spheres {
     }
 }
 
-impl SphereBvh {
+impl<V: Vector> SphereBvh<V> {
     /// Returns an iterator over every crossing of the ray with a sphere, nearest first, each with the index of its sphere.
     ///
     /// A ray crosses a sphere where it enters and where it leaves. The normal is outward at both, and
@@ -129,34 +134,34 @@ impl SphereBvh {
     #[doc(alias("all_hits", "raycast_all", "intersect_all", "multi_hit"))]
     pub fn hits(
         &self,
-        ray: &Ray,
-        range: Range<f32>,
-    ) -> impl FusedIterator<Item = (usize, Hit)> + Clone + use<'_> {
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> impl FusedIterator<Item = (usize, Hit<V>)> + Clone + use<'_, V> {
         self.hits_in_lanes(Lanes::best(), ray, range)
     }
 }
 
 /// An iterator over the crossings with spheres that are all tested.
 #[derive(Clone)]
-pub(super) struct ScanHits<'a> {
-    spheres: &'a Spheres,
+pub(super) struct ScanHits<'a, V: Vector> {
+    spheres: &'a Spheres<V>,
     lanes: Lanes,
     is_begun: bool,
-    crossings: Crossings<&'a [Sphere]>,
+    crossings: Crossings<V, &'a [Sphere<V>]>,
 }
 
-impl Iterator for ScanHits<'_> {
-    type Item = (usize, Hit);
+impl<V: Vector> Iterator for ScanHits<'_, V> {
+    type Item = (usize, Hit<V>);
 
     #[inline]
-    fn next(&mut self) -> Option<(usize, Hit)> {
+    fn next(&mut self) -> Option<(usize, Hit<V>)> {
         let Self { spheres, lanes, is_begun, crossings } = self;
         if *is_begun {
             crossings.ask_for_exit();
         } else {
             *is_begun = true;
             let (ray, range) = (crossings.ray, crossings.range.clone());
-            spheres.for_each_near(*lanes, &ray, range, |place| crossings.ask(place));
+            spheres.for_each_near(*lanes, &ray, &range, |place| crossings.ask(place));
         }
         crossings.take()
     }
@@ -165,16 +170,16 @@ impl Iterator for ScanHits<'_> {
 /// An iterator over crossings.
 #[derive(Clone)]
 #[expect(clippy::large_enum_variant, reason = "a box would be allocated for every ray")]
-pub(super) enum Hits<'a> {
-    Scan(ScanHits<'a>),
-    Tree(hierarchy::Hits<'a>),
+pub(super) enum Hits<'a, V: Vector> {
+    Scan(ScanHits<'a, V>),
+    Tree(hierarchy::Hits<'a, V>),
 }
 
-impl Iterator for Hits<'_> {
-    type Item = (usize, Hit);
+impl<V: Vector> Iterator for Hits<'_, V> {
+    type Item = (usize, Hit<V>);
 
     #[inline]
-    fn next(&mut self) -> Option<(usize, Hit)> {
+    fn next(&mut self) -> Option<(usize, Hit<V>)> {
         match self {
             Self::Scan(hits) => hits.next(),
             Self::Tree(hits) => hits.next(),
@@ -182,5 +187,5 @@ impl Iterator for Hits<'_> {
     }
 }
 
-impl FusedIterator for ScanHits<'_> {}
-impl FusedIterator for Hits<'_> {}
+impl<V: Vector> FusedIterator for ScanHits<'_, V> {}
+impl<V: Vector> FusedIterator for Hits<'_, V> {}

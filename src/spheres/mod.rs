@@ -6,6 +6,8 @@ mod filter;
 mod hierarchy;
 mod hits;
 mod lanes;
+mod local;
+mod middle;
 mod queue;
 mod scan;
 #[cfg(feature = "serde")]
