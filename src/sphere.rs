@@ -15,7 +15,8 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 
 /// A sphere: a center and a radius.
 ///
-/// Whether a ray hits it is decided exactly, and the distance is correctly rounded.
+/// Whether a ray hits it is decided exactly, and the distance is correctly rounded. Its nearest hit and occlusion come from the
+/// trait [`Hittable`], which must be in scope (`use eyeray::Hittable`).
 ///
 /// ```
 /// use eyeray::{Hittable, Ray, Sphere};
@@ -26,8 +27,7 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 ///
 /// // The ray enters at z = -3, 1.5 lengths of its direction away, and leaves at z = -5.
 /// assert_eq!(sphere.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(1.5));
-/// assert_eq!(sphere.roots_algebraic(&ray), Some([1.5, 2.5]));
-/// assert_eq!(sphere.roots_geometric(&ray), Some([1.5, 2.5]));
+/// assert_eq!(sphere.roots(&ray), Some([1.5, 2.5]));
 /// ```
 ///
 /// # What is promised
@@ -36,8 +36,8 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 /// as they are:
 ///
 /// 1. Hit or miss is never wrong, and each root is t rounded to the nearest number of the format, ties to even, with overflow
-///    to infinity and gradual underflow. So [`Algebraic`](crate::Algebraic) and [`Geometric`](crate::Geometric) give the same roots, bit for bit, on every machine, with
-///    fused multiply-add or without.
+///    to infinity and gradual underflow. So [`Algebraic`](crate::Algebraic) and [`Geometric`](crate::Geometric) give the same
+///    roots, bit for bit, on every machine, with fused multiply-add or without.
 /// 2. A line that touches the sphere hits it, with two equal roots. A sphere of radius 0 is hit if and only if the line goes
 ///    through its center.
 /// 3. A NaN or an infinity in the ray or the sphere, a zero direction or a negative radius gives `None`. Nothing panics, and
@@ -45,10 +45,10 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 /// 4. The direction need not be unit, and t counts in its lengths: of 2ᵏ times the direction, t is 2⁻ᵏ times as large,
 ///    exactly.
 /// 5. A ray is a half-line: a hit is at the smallest root that, as returned, is finite, above 0 and in the range.
-/// 6. Each coordinate of [`Hit::point`] is off by at most 0.51 ulp of itself (1 ulp where it is subnormal or, in `f64`, below 2⁻⁸⁴⁸)
-///    and the smaller of 2⁻³⁰ of the distance travelled, t times the direction's length, and 2⁻²⁴ of the radius (with `DVec3` 2⁻⁶⁰
-///    and 2⁻⁵³). [`Hit::normal`] is within 2 ulp of 1 of the outward unit normal there. At radius 0, where there is none, it points
-///    back along the ray.
+/// 6. Each coordinate of [`Hit::point`] is off by at most 0.51 ulp of itself, plus the smaller of 2⁻³⁰ of the distance travelled (t
+///    times the direction's length) and 2⁻²⁴ of the radius; with `DVec3`, these are 2⁻⁶⁰ and 2⁻⁵³. Instead of 0.51 ulp it is 1 ulp
+///    where the coordinate is subnormal or, in `f64`, below 2⁻⁸⁴⁸. Each coordinate of [`Hit::normal`], the outward unit normal, is
+///    off by at most 2 ulp of 1; at radius 0, where there is none, it points back along the ray.
 /// 7. A ray of [`Hit::spawn`] never hits the surface that it leaves, if the radius is at least 1,000 ulp of the coordinates of the
 ///    point. It starts no farther from it than stated at [`spawn`](Hit::spawn).
 /// 8. Of many spheres, the one returned is that whose exact root is least among those accepted by point 5, also where distances round

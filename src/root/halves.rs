@@ -58,16 +58,17 @@ pub(super) const CLEAR: f64 = 1.0 / 65536.0;
 /// The square of the least s t, in r² m.
 const CLEAR_OF_RESIDUAL: f64 = 1.0 / 1_048_576.0;
 
-/// Of t, in r √m / s: 2⁻⁷².
+/// Of t, in r √m / s: 2⁻⁷². Proved in `tests/proofs/halves.g`.
 const RESIDUAL_ERROR: f64 = U / 524_288.0;
 
-/// Of the slope w·d, in r |d|.
+/// Of the slope w·d, in r |d|. Proved in `tests/proofs/halves.g`.
 const SLOPE_ERROR: f64 = 4.0 * U;
 
-/// Of w, in √m: 2⁻⁷⁴.
+/// Of w, in √m: 2⁻⁷⁴. Proved in `tests/proofs/halves.g`.
 const OFFSET_ERROR: f64 = U / 2_097_152.0;
 
 /// How far off a corrected root may be, as a part of itself: 2⁻⁶², and half of that for all else.
+/// Proved in `tests/proofs/halves.g`.
 const ROOT_ERROR: f64 = U / 512.0 * 1.5;
 
 /// A vector as the sum of two, exactly.

@@ -123,13 +123,23 @@ fn what_is_no_camera() {
     assert!(refusal("/projection", json!("fisheye")).contains("unknown variant `fisheye`"));
 }
 
+/// That of a left-handed view matrix.
+#[test]
+fn a_left_handed_basis_is_one() {
+    for basis in [[Vec3::NEG_X, Vec3::Y, Vec3::Z], [Vec3::Y, Vec3::X, Vec3::Z]] {
+        let mut camera = perspective();
+        camera["basis"] = json!(basis);
+        let read: Camera = from_value(camera.clone()).expect("a camera");
+        assert_eq!(read.basis(), basis);
+        assert_eq!(to_value(read).expect("finite"), camera);
+        round_trip(&read);
+    }
+}
+
 #[test]
 fn what_is_no_basis() {
     for basis in [
         [Vec3::ZERO; 3],
-        // Left-handed.
-        [Vec3::NEG_X, Vec3::Y, Vec3::Z],
-        [Vec3::Y, Vec3::X, Vec3::Z],
         // Too long, and not at right angles.
         [Vec3::X * 2.0, Vec3::Y, Vec3::Z],
         [Vec3::X, Vec3::Y, Vec3::new(1e-7, 0.0, 1.0)],
@@ -137,7 +147,7 @@ fn what_is_no_basis() {
     ] {
         assert_eq!(
             refusal("/basis", json!(basis)),
-            "the camera's basis is not three unit vectors at right angles, right-handed"
+            "the camera's basis is not three unit vectors at right angles"
         );
     }
     for axis in 0..3 {
