@@ -152,6 +152,43 @@ impl<V: Vector> Sphere<V> {
         self.roots_by::<ClosestApproach>(ray)
     }
 
+    /// Returns where the ray leaves the sphere, if `t` > 0 and in `range` there. `None` also where the line misses.
+    ///
+    /// [`intersect`](Hittable::intersect) returns where the ray enters or, from inside, leaves. The two together give what the ray
+    /// passes through of the sphere, with both points and normals, as constructive solid geometry needs it. The normal is outward
+    /// here, too.
+    ///
+    /// A line that touches the sphere leaves it where it enters. From far away, both `t` may be equal also where the line passes
+    /// through: the point and the normal are then still those of the exit.
+    ///
+    /// ```
+    /// use eyeray::{Hittable, Ray, Sphere};
+    /// use glam::{DVec3, dvec3};
+    ///
+    /// let all = 0.0..f64::INFINITY;
+    /// let sphere = Sphere::new(DVec3::ZERO, 1.0);
+    /// let ray = Ray::new(dvec3(0.0, 0.0, 3.0), DVec3::NEG_Z);
+    /// let exit = sphere.exit(&ray, all.clone());
+    /// assert_eq!(exit.map(|exit| (exit.t, exit.normal)), Some((4.0, DVec3::NEG_Z)));
+    ///
+    /// // From 1e17 away, 2 is less than the distance between two numbers.
+    /// let far_away = Ray::new(dvec3(0.0, 0.0, 1e17), DVec3::NEG_Z);
+    /// let entry = sphere.intersect(&far_away, all.clone());
+    /// let exit = sphere.exit(&far_away, all);
+    /// assert_eq!(entry.map(|entry| (entry.t, entry.point)), Some((1e17, DVec3::Z)));
+    /// assert_eq!(exit.map(|exit| (exit.t, exit.point)), Some((1e17, DVec3::NEG_Z)));
+    /// ```
+    pub fn exit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>> {
+        let [near, far] = self.roots(ray)?;
+        if !range.contains(&far) {
+            None
+        } else if near < far {
+            self.intersect(ray, far..range.end)
+        } else {
+            V::perform(ExitAtSameT { sphere: self, ray })
+        }
+    }
+
     /// Where the ray meets the sphere first, by that derivation.
     #[inline(always)]
     pub(crate) fn intersect_by<D: Derivation>(
@@ -178,7 +215,7 @@ impl<V: Vector> Hittable<V> for Sphere<V> {
 
     #[inline(always)]
     fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
-        rejection::may_hit(self, ray, range.end)
+        rejection::may_hit(self, ray, range)
     }
 
     #[inline(always)]
@@ -188,7 +225,7 @@ impl<V: Vector> Hittable<V> for Sphere<V> {
 
     #[inline(always)]
     fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>, _: Crate) -> u32 {
-        rejection::may_hit_four(objects.each_ref(), ray, range.end)
+        rejection::may_hit_four(objects.each_ref(), ray, range)
     }
 }
 
@@ -209,6 +246,23 @@ impl<V: Vector, D: Derivation> Operation<V> for Intersection<'_, V, D> {
         V: Internal,
     {
         V::intersect::<D>(self.sphere, self.ray, self.range)
+    }
+}
+
+/// [`Sphere::exit`] where both roots round to the same number.
+struct ExitAtSameT<'a, V: Vector> {
+    sphere: &'a Sphere<V>,
+    ray: &'a Ray<V>,
+}
+
+impl<V: Vector> Operation<V> for ExitAtSameT<'_, V> {
+    type Output = Option<Hit<V>>;
+
+    fn run(self) -> Option<Hit<V>>
+    where
+        V: Internal,
+    {
+        V::exit_at_same_t(self.sphere, self.ray)
     }
 }
 

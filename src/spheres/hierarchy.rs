@@ -3,6 +3,7 @@
 mod bounds;
 mod boxes;
 mod build;
+mod hits;
 mod leaf;
 mod region;
 mod split;
@@ -15,6 +16,7 @@ use core::ops::Range;
 
 use boxes::Boxes;
 use glam::Vec3;
+pub(super) use hits::Hits;
 use leaf::Leaf;
 use region::Region;
 
@@ -132,6 +134,22 @@ impl<V: Vector> SphereBvh<V> {
         match &self.0 {
             Shape::Scan(spheres) => spheres.nearest(ray, range),
             Shape::Tree(tree) => tree.nearest(Lanes::best(), ray, range),
+        }
+    }
+
+    /// [`hits`](Self::hits) with that set of instructions.
+    #[inline(always)]
+    pub(super) fn hits_in_lanes(
+        &self,
+        lanes: Lanes,
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> super::hits::Hits<'_, V> {
+        match &self.0 {
+            Shape::Scan(spheres) => {
+                super::hits::Hits::Scan(spheres.hits_in_lanes(lanes, ray, range))
+            }
+            Shape::Tree(tree) => super::hits::Hits::Tree(Hits::new(tree, lanes, ray, range)),
         }
     }
 
