@@ -13,10 +13,11 @@
 //!
 //! From far away, the distances of atoms one behind the other round to the same `f32`, and the one in front is still the one
 //! that is seen. `--from-afar` asks the rays of the picture with the eye 1e6 and 1e7 radii away, and counts the answers that are
-//! not the atom in front: with this crate none, by the least rounded distance many.
+//! not the atom in front: with this crate none. By the least correctly rounded distance, it is none from 1e6 radii, because atoms of
+//! this crystal only just touch, and 16 of 6,075 from 1e7.
 //!
 //! ```text
-//! cargo run --release --example molecule -- --from-afar --width 160 --height 160
+//! cargo run --release --example molecule -- --from-afar --width 100 --height 100
 //! ```
 //!
 //! An orthographic camera sees only what is ahead of its eye, so a viewer places the eye well back: by default 3,000 radii of a
