@@ -41,14 +41,16 @@
 //!   occlusion ([`occludes`](Hittable::occludes)), for shadow rays and lines of sight.
 //! - [`Hit`]: the distance, the point and the normal. [`spawn`](Hit::spawn) creates the reflected, refracted and shadow rays, which
 //!   do not hit the surface that they leave.
-//! - [`nearest`]: which of many objects a ray hits first, and where. For spheres in `f32`, [`Spheres`] and [`SphereBvh`] return
-//!   the same bits in less time.
+//! - [`nearest`]: which of many objects a ray hits first, and where. For spheres, [`Spheres`] and [`SphereBvh`] return the same
+//!   bits in less time. [`Nearest`] is the trait of all that can be asked this.
 //!
 //! | scene | use |
 //! |:--|:--|
-//! | one sphere, spheres in `f64`, shapes of your own | [`Sphere`], [`Hittable`], and [`nearest`] on a slice |
-//! | `f32` spheres, up to some hundred, or changing | [`Spheres`] |
-//! | more `f32` spheres that stay as they are | [`SphereBvh`] |
+//! | one sphere, shapes of your own | [`Sphere`], [`Hittable`], and [`nearest`] on a slice |
+//! | up to some hundred spheres, or few rays between changes | [`Spheres`] |
+//! | more spheres | [`SphereBvh`], a hierarchy |
+//!
+//! All are for both precisions.
 //!
 //! # Precision
 //!
@@ -123,6 +125,7 @@ mod float;
 mod geometric;
 mod hit;
 mod hittable;
+mod nearest;
 mod ray;
 mod rejection;
 mod root;
@@ -142,10 +145,11 @@ pub use camera::{Camera, CameraArgument, CameraError, Frame, Rays, Tile, Tiles, 
 pub use geometric::Geometric;
 pub use hit::Hit;
 pub use hittable::{Hittable, nearest};
+pub use nearest::Nearest;
 pub use ray::Ray;
 pub use sphere::Sphere;
 #[cfg(feature = "alloc")]
-pub use spheres::{SphereBvh, Spheres};
+pub use spheres::{SphereBvh, SphereBvhIter, Spheres};
 pub use vector::{Scalar, Vector};
 
 /// The examples of the README.

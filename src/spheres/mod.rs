@@ -15,5 +15,5 @@ mod serialize;
 #[cfg(test)]
 mod tests;
 
-pub use hierarchy::SphereBvh;
+pub use hierarchy::{SphereBvh, SphereBvhIter};
 pub use scan::Spheres;

@@ -1,4 +1,4 @@
-//! A collection of few or changing spheres, which are all tested: by a filter over many lanes, and the few that pass by the exact
+//! A collection of few spheres, or of few rays between changes, which are all tested: by a filter over many lanes, and the few that pass by the exact
 //! routine.
 
 use alloc::vec::Vec;
@@ -8,6 +8,7 @@ use core::{fmt, iter, slice};
 use glam::Vec3;
 
 use super::filter::{Block, FEW, LARGEST, MARGIN, Segment};
+use super::hierarchy::bounds::Bounds;
 use super::lanes::{Instructions, LANES, Lanes, Vectorized};
 use super::local::{Approach, narrow};
 use super::middle::Middle;
@@ -17,7 +18,7 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// How many blocks have a bit for each sphere in one word.
 const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 
-/// A collection of few or changing spheres, which finds the nearest hit by testing many spheres at a time.
+/// A collection of few spheres, or for few rays between changes, which finds the nearest hit by testing many spheres at a time.
 ///
 /// It returns what [`nearest`] returns for a slice of the same spheres, bit for bit: the same hit and the same index, that of the
 /// sphere in front, also where distances round to the same number. It takes less time, because most spheres are dropped in single
@@ -31,9 +32,11 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 ///
 /// # When to use it
 ///
-/// For two spheres or more, up to some hundred, or for any number that changes: spheres can be added, changed and removed one by
-/// one. The time of a query is proportional to their number. For more than some hundred that stay as they are,
-/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. (`cargo bench --bench spheres` measures 1 to 65,536.)
+/// For two spheres or more, up to some hundred, and for more where few rays are asked between changes: spheres can be added,
+/// changed and removed one by one. The time of a query is proportional to their number. For more than some hundred,
+/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. To build it takes time: of 20,000 spheres, some 5 ms,
+/// which pays from some 1,500 rays between changes. (`cargo bench --bench spheres` measures 1 to 65,536 spheres, and `cargo bench
+/// --bench sphere_scenes` building and both precisions.)
 ///
 /// # Instructions
 ///
@@ -72,6 +75,20 @@ pub struct Spheres<V: Vector = Vec3> {
 
 impl<V: Vector> Spheres<V> {
     /// Creates an empty collection.
+    ///
+    /// `From` takes a `Vec`, an array or a slice of spheres, and `collect` an iterator. [`extend`](Extend::extend) adds many, and
+    /// [`push`](Self::push) one.
+    ///
+    /// ```
+    /// use eyeray::{Sphere, Spheres};
+    /// use glam::Vec3;
+    ///
+    /// let row = [1.0, 2.0, 3.0].map(|x| Sphere::new(Vec3::X * x, 0.1));
+    /// let mut spheres = Spheres::new();
+    /// spheres.push(row[0]);
+    /// spheres.extend(&row[1..]);
+    /// assert_eq!(spheres, Spheres::from(row));
+    /// ```
     #[inline]
     #[must_use]
     pub const fn new() -> Self {
@@ -222,6 +239,37 @@ impl<V: Vector> Spheres<V> {
         &self,
     ) -> impl ExactSizeIterator<Item = Sphere<V>> + DoubleEndedIterator + Clone + '_ {
         self.into_iter()
+    }
+
+    /// Returns the axis-aligned bounding box of all spheres: its lowest and its highest corner, each coordinate rounded outwards.
+    ///
+    /// Spheres that no ray can hit do not count. Without others, the box is empty: from +∞ to -∞. It takes time in proportion to
+    /// the number of spheres.
+    ///
+    /// ```
+    /// use eyeray::{Camera, Sphere, Spheres, ViewRect};
+    /// use glam::{Vec3, vec3};
+    ///
+    /// # fn main() -> Result<(), eyeray::CameraError> {
+    /// let spheres = Spheres::from([
+    ///     Sphere::new(vec3(-3.0, 1.0, 0.0), 1.0),
+    ///     Sphere::new(vec3(7.0, 2.0, 0.0), 2.0),
+    /// ]);
+    /// let (low, high) = spheres.bounds();
+    /// assert_eq!((low, high), (vec3(-4.0, 0.0, -2.0), vec3(9.0, 4.0, 2.0)));
+    ///
+    /// // A camera that looks along -z and sees all of them.
+    /// let middle = (low + high) / 2.0;
+    /// let size = high - low;
+    /// let view = ViewRect::centered(size.x, size.y);
+    /// let eye = middle + Vec3::Z * size.z;
+    /// let camera = Camera::orthographic(eye, middle, Vec3::Y, view)?;
+    /// # assert!(camera.project(low).is_some());
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn bounds(&self) -> (V, V) {
+        Bounds::of_all(self.iter()).corners()
     }
 
     /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the sphere in
@@ -516,30 +564,35 @@ impl<V: Vector> From<Vec<Sphere<V>>> for Spheres<V> {
     }
 }
 
+/// Moves the spheres into a `Vec`.
 impl<V: Vector, const N: usize> From<[Sphere<V>; N]> for Spheres<V> {
     fn from(spheres: [Sphere<V>; N]) -> Self {
         Vec::from(spheres).into()
     }
 }
 
+/// Copies the spheres.
 impl<V: Vector> From<&[Sphere<V>]> for Spheres<V> {
     fn from(spheres: &[Sphere<V>]) -> Self {
         spheres.to_vec().into()
     }
 }
 
+/// Collects the spheres into a `Vec`. The index of each is its place among them.
 impl<V: Vector> FromIterator<Sphere<V>> for Spheres<V> {
     fn from_iter<I: IntoIterator<Item = Sphere<V>>>(iter: I) -> Self {
         iter.into_iter().collect::<Vec<_>>().into()
     }
 }
 
+/// Collects copies of the spheres.
 impl<'a, V: Vector> FromIterator<&'a Sphere<V>> for Spheres<V> {
     fn from_iter<I: IntoIterator<Item = &'a Sphere<V>>>(iter: I) -> Self {
         iter.into_iter().copied().collect()
     }
 }
 
+/// Appends the spheres.
 impl<V: Vector> Extend<Sphere<V>> for Spheres<V> {
     fn extend<I: IntoIterator<Item = Sphere<V>>>(&mut self, iter: I) {
         let iter = iter.into_iter();
@@ -551,12 +604,14 @@ impl<V: Vector> Extend<Sphere<V>> for Spheres<V> {
     }
 }
 
+/// Appends copies of the spheres.
 impl<'a, V: Vector> Extend<&'a Sphere<V>> for Spheres<V> {
     fn extend<I: IntoIterator<Item = &'a Sphere<V>>>(&mut self, iter: I) {
         self.extend(iter.into_iter().copied());
     }
 }
 
+/// Returns the spheres by ascending index.
 impl<V: Vector> IntoIterator for Spheres<V> {
     type Item = Sphere<V>;
     type IntoIter = alloc::vec::IntoIter<Sphere<V>>;
@@ -566,6 +621,7 @@ impl<V: Vector> IntoIterator for Spheres<V> {
     }
 }
 
+/// Returns the spheres by ascending index.
 impl<'a, V: Vector> IntoIterator for &'a Spheres<V> {
     type Item = Sphere<V>;
     type IntoIter = iter::Copied<slice::Iter<'a, Sphere<V>>>;
