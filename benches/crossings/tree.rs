@@ -72,7 +72,7 @@ impl Tree {
                 Content::Nodes(halves) => waiting.extend(halves),
                 Content::Spheres { first, end } => {
                     for (sphere, index) in &self.spheres[first..end] {
-                        let roots = sphere.roots_algebraic(ray);
+                        let roots = sphere.roots(ray);
                         let ahead = roots.into_iter().flatten().filter(|t| *t > 0.0);
                         crossings.extend(ahead.map(|t| (t, *index)));
                     }

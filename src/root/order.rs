@@ -111,10 +111,13 @@ impl<'a, V: Vector> Known<'a, V> {
     fn side_at(&self, ray: &Ray<V>, t: V::Scalar) -> Option<Side> {
         if let Some(nearby) = &self.nearby {
             let (t, above): (f64, f64) = (t.into(), next_above::<V>(t).into());
-            match nearby.side_within(above - t, is_power_of_two(t)) {
-                Within::Neither => return None,
-                Within::One(side) => return Some(side),
-                Within::Doubt => {}
+            // Of the largest number, the next float tells no ulp.
+            if above < f64::INFINITY {
+                match nearby.side_within(above - t, is_power_of_two(t)) {
+                    Within::Neither => return None,
+                    Within::One(side) => return Some(side),
+                    Within::Doubt => {}
+                }
             }
         }
         let [near, far] = self.sphere.roots(ray)?;

@@ -27,13 +27,12 @@ impl<V: Vector> Places<V> for &Tree<V> {
 
     fn index(&self, place: usize) -> usize {
         let lanes = Leaf::<V::Scalar>::LANES;
-        let index = match self.leaves.get(place / lanes) {
-            Some(leaf) => leaf.index(place % lanes),
-            // Nothing crosses what is behind these.
-            None => {
-                let apart = place - self.leaves.len() * lanes;
-                self.apart_indices.get(apart).copied().unwrap_or(NONE)
-            }
+        let index = if let Some(leaf) = self.leaves.get(place / lanes) {
+            leaf.index(place % lanes)
+        } else {
+            // Nothing crosses what is behind those apart.
+            let apart = place - self.leaves.len() * lanes;
+            self.apart_indices.get(apart).copied().unwrap_or(NONE)
         };
         index as usize
     }

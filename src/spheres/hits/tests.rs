@@ -12,7 +12,7 @@ use crate::spheres::tests::{
     Scene, Tested, above, all, bits, in_both, member, questions, ranges, ray, scalar, sphere,
 };
 use crate::testing::{Dyadic, ExactChord};
-use crate::{Hit, Hittable, Ray, Scalar, Sphere, nearest};
+use crate::{Hit, Hittable, Ray, Scalar, Sphere, Vector, nearest};
 
 in_both! {
     gives_every_crossing_in_every_family_and_length
@@ -27,7 +27,7 @@ in_both! {
 
 /// The line of a ray with a sphere, exactly.
 fn chord<V: Tested>(ray: &Ray<V>, sphere: &Sphere<V>) -> ExactChord {
-    let vectors = [sphere.center, ray.origin, ray.direction].map(|vector| vector.to_f64());
+    let vectors = [sphere.center, ray.origin, ray.direction].map(Vector::to_f64);
     let mut numbers = [sphere.radius.into(); 10];
     for (number, coordinate) in
         numbers.iter_mut().zip(vectors.into_iter().flat_map(|vector| vector.to_array()))
@@ -51,7 +51,7 @@ fn sign_of_sum([x, y]: [(Ordering, &Dyadic); 2]) -> Ordering {
 }
 
 /// A crossing by brute force: of which sphere, whether it is the far root, and t.
-type Expected<V> = (usize, bool, <V as crate::Vector>::Scalar);
+type Expected<V> = (usize, bool, <V as Vector>::Scalar);
 
 /// The order of two crossings: by the exact roots, which have a denominator in common, then by index and side.
 fn compare<V: Tested>(
@@ -294,7 +294,7 @@ fn leaves_on_the_other_side_at_the_same_t<V: Tested>() {
 fn gives_every_crossing_wherever_the_spheres_are<V: Tested>() {
     let mut rng = Rng::new(9);
     let mut crossings = 0;
-    for turn in 0..60 {
+    for turn in 0..16 {
         let axis = rng.unit_vector();
         let far = 10_f64.powf(rng.uniform(2.0, 7.0));
         let clusters =
@@ -320,5 +320,5 @@ fn gives_every_crossing_wherever_the_spheres_are<V: Tested>() {
             }
         }
     }
-    assert!(crossings > 10_000, "{crossings}");
+    assert!(crossings > 3_000, "{crossings}");
 }
