@@ -276,7 +276,8 @@ impl<V: Vector> Spheres<V> {
         if Segment::allows(origin, direction, self.middle.near_squared) {
             Some(Segment::new(origin, direction, MARGIN))
         } else {
-            self.segment_from_afar(ray, end)
+            // Not returned as it is: with one place for both, what was just written would be copied, and waited for.
+            Some(self.segment_from_afar(ray, end)?)
         }
     }
 
