@@ -52,7 +52,6 @@ fn child(key: Key) -> u32 {
 struct Numbers([f32; LANES]);
 
 /// A ray on its way.
-#[derive(Default)]
 struct Query<S> {
     /// Through the region that it is in.
     way: Way<S>,
@@ -66,18 +65,22 @@ struct Query<S> {
 
 impl<S: Scalar> Query<S> {
     /// Goes into a region. Returns whether the ray may enter one of its boxes before `end`.
-    #[inline(always)]
+    // A call: inlined into the walk, it would be prepared for in each query.
+    #[inline(never)]
     fn enter<V: Vector<Scalar = S>>(&mut self, region: &Region<V>, ray: &Ray<V>, end: S) -> bool {
-        let enters = region.enter(ray, end, &mut self.way);
-        if enters {
-            self.set_end(end);
-        }
-        enters
+        self.way = if region.is_near(ray) {
+            region.way(ray)
+        } else {
+            let Some(way) = region.way_from_afar(ray, end) else { return false };
+            way
+        };
+        self.set_end(end);
+        true
     }
 
     /// Goes back into a region.
     fn enter_again<V: Vector<Scalar = S>>(&mut self, region: &Region<V>, ray: &Ray<V>, end: S) {
-        region.enter(ray, S::INFINITY, &mut self.way);
+        self.enter(region, ray, S::INFINITY);
         self.set_end(end);
     }
 
@@ -89,7 +92,8 @@ impl<S: Scalar> Query<S> {
     /// Which spheres of a leaf the ray may meet.
     #[inline(always)]
     fn near(&mut self, lanes: Lanes, leaf: &Leaf<S>) -> u32 {
-        if self.way.moved == 0.0 {
+        // As bits, that is one comparison with memory: a float may be NaN.
+        if self.way.moved.to_bits() == 0 {
             lanes.run(Near::<S, false> { leaf, query: self })
         } else {
             lanes.run(Near::<S, true> { leaf, query: self })
@@ -168,8 +172,15 @@ impl<V: Vector> Tree<V> {
         // A NaN is no end of a range, and would open the boxes of no child.
         let is_range = end > V::Scalar::ZERO;
         let Some(whole) = self.regions.first().filter(|_| is_range) else { return };
-        let mut query = Query::default();
-        if !query.enter(whole, ray, end) {
+        let is_near = whole.is_near(ray);
+        // In either case, and in its place: to copy what was just written takes as long as a visit.
+        let mut query = Query {
+            way: whole.way(ray),
+            end: local_end(end, 0.0),
+            entries: Numbers::default(),
+            clearances: Numbers::default(),
+        };
+        if !is_near && !query.enter(whole, ray, end) {
             return;
         }
         // Not cleared first: that would take as long as some visits.
