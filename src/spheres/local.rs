@@ -52,7 +52,7 @@ pub(super) fn above<V: Vector>(t: V::Scalar) -> V::Scalar {
         where
             V: Internal,
         {
-            -(-self.0).next_below()
+            V::next_above(self.0)
         }
     }
 

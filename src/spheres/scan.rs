@@ -324,7 +324,8 @@ impl<V: Vector> Spheres<V> {
         if Segment::allows(origin, direction, self.middle.near_squared) {
             Some(Segment::new::<V>(origin, direction, range.start, MARGIN))
         } else {
-            self.segment_from_afar(ray, range)
+            // Not returned as it is: with one place for both, what was just written would be copied, and waited for.
+            Some(self.segment_from_afar(ray, range)?)
         }
     }
 

@@ -41,8 +41,11 @@
 //! smaller.
 //!
 //! **Overflow and underflow.** Lengths up to 2⁶⁰ and directions of 2⁻³⁰ to 2⁶⁰ keep every intermediate result finite: |o| < 2⁶²,
-//! and m < 2⁹² for a sphere that is hit, wherever the range starts. A product that underflows is off by 2⁻¹⁵⁰: in m d that makes 2⁻⁸⁸, and [`LEAST`], 2⁻⁶⁰, which each R has added to
-//! it, is more; R² is then at least 2⁻¹²⁰ above r², and |w|² off by 2⁻¹⁴⁸ at most.
+//! and m < 2⁹² for a sphere that is hit, wherever the range starts. A product that underflows is off by 2⁻¹⁵⁰: in m d that makes
+//! 2⁻⁸⁸, and [`LEAST`], 2⁻⁶⁰, which each R has added to it, is more; R² is then at least 2⁻¹²⁰ above r², and |w|² off by 2⁻¹⁴⁸ at
+//! most.
+
+use core::mem::size_of;
 
 use glam::{DVec3, Vec4};
 
@@ -127,8 +130,15 @@ impl<S: Scalar> Leaf<S> {
         clearances: &mut [f32; LANES],
     ) -> u32 {
         let origin = tube.origin;
-        let offset = |center: S, axis: usize| to_f32(center - origin[axis]);
-        self.near_origin(instructions, tube, offset, limits, closest, clearances)
+        let offset = |lane: usize, axis: usize| to_f32(self.center[axis][lane] - origin[axis]);
+        if size_of::<S>() == size_of::<f32>() {
+            let sphere = |lane| {
+                (offset(lane, 0), offset(lane, 1), offset(lane, 2), to_f32(self.radius[lane]))
+            };
+            self.near_origin(instructions, tube, sphere, limits, closest, clearances)
+        } else {
+            self.near_narrowed(instructions, tube, offset, limits, closest, clearances)
+        }
     }
 
     /// [`near`](Self::near) of a ray that begins anew.
@@ -142,17 +152,43 @@ impl<S: Scalar> Leaf<S> {
         clearances: &mut [f32; LANES],
     ) -> u32 {
         let origin = tube.moved_origin;
-        let offset = |center: S, axis: usize| to_f32(center.into() - origin[axis]);
-        self.near_origin(instructions, tube, offset, limits, closest, clearances)
+        let offset =
+            |lane: usize, axis: usize| to_f32(self.center[axis][lane].into() - origin[axis]);
+        self.near_narrowed(instructions, tube, offset, limits, closest, clearances)
     }
 
-    /// The same with what a coordinate of a center is, relative to the ray's origin.
+    /// The same with the coordinates of a lane relative to the ray's origin. All are rounded to `f32` before anything else is done
+    /// with them: in one loop with `f64`, a vector would hold no more of what is `f32`.
+    #[inline(always)]
+    fn near_narrowed<I: Instructions>(
+        &self,
+        instructions: I,
+        tube: &Tube<S>,
+        offset: impl Fn(usize, usize) -> f32,
+        limits: [f32; 2],
+        closest: &mut [f32; LANES],
+        clearances: &mut [f32; LANES],
+    ) -> u32 {
+        let mut narrowed = [[0.0; LANES]; 4];
+        for lane in 0..LANES {
+            narrowed[0][lane] = offset(lane, 0);
+            narrowed[1][lane] = offset(lane, 1);
+            narrowed[2][lane] = offset(lane, 2);
+            narrowed[3][lane] = to_f32(self.radius[lane]);
+        }
+        let sphere = |lane: usize| {
+            (narrowed[0][lane], narrowed[1][lane], narrowed[2][lane], narrowed[3][lane])
+        };
+        self.near_origin(instructions, tube, sphere, limits, closest, clearances)
+    }
+
+    /// The same with what the coordinates of a lane are, relative to the ray's origin, and the radius.
     #[inline(always)]
     fn near_origin<I: Instructions>(
         &self,
         instructions: I,
         tube: &Tube<S>,
-        offset: impl Fn(S, usize) -> f32,
+        sphere: impl Fn(usize) -> (f32, f32, f32, f32),
         [start, end]: [f32; 2],
         closest: &mut [f32; LANES],
         clearances: &mut [f32; LANES],
@@ -161,9 +197,7 @@ impl<S: Scalar> Leaf<S> {
         // Arrays of its own, or the compiler would have to store each number before it loads the next.
         let (mut all_closest, mut all_clearances) = ([0.0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
-            let x = offset(self.center[0][lane], 0);
-            let y = offset(self.center[1][lane], 1);
-            let z = offset(self.center[2][lane], 2);
+            let (x, y, z, radius) = sphere(lane);
             let m = instructions.multiply_add(over_a.y, y, over_a.x * x);
             let m = instructions.multiply_add(over_a.z, z, m);
             // Comparisons that are one instruction each: `f32::clamp` looks for NaN.
@@ -172,7 +206,7 @@ impl<S: Scalar> Leaf<S> {
             let x = instructions.multiply_add(-m, direction.x, x);
             let y = instructions.multiply_add(-m, direction.y, y);
             let z = instructions.multiply_add(-m, direction.z, z);
-            let radius = instructions.multiply_add(to_f32(self.radius[lane]), radius_factor, least);
+            let radius = instructions.multiply_add(radius, radius_factor, least);
             let radius = instructions.multiply_add(widening, m, radius);
             // Two halves, neither of which waits for the other.
             let one = instructions.multiply_add(y, y, x * x);

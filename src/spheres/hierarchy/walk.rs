@@ -66,20 +66,31 @@ pub(super) struct Query<S> {
     clearances: Numbers,
 }
 
+/// Where a range starts for a ray that begins anew at `moved`, which hits nothing before that.
+#[inline(always)]
+fn first_start<V: Vector>(start: V::Scalar, moved: f64) -> f32 {
+    let start = local_start::<V>(start, moved);
+    if start > 0.0 { start } else { 0.0 }
+}
+
 impl<S: Scalar> Query<S> {
     /// Goes into a region. Returns whether the ray may enter one of its boxes before `end`.
-    #[inline(always)]
+    // A call: inlined into the walk, it would be prepared for in each query.
+    #[inline(never)]
     pub(super) fn enter<V: Vector<Scalar = S>>(
         &mut self,
         region: &Region<V>,
         ray: &Ray<V>,
-        Range { start, end }: Range<S>,
+        range: Range<S>,
     ) -> bool {
-        let enters = region.enter(ray, end, &mut self.way);
-        if enters {
-            self.set_range::<V>(start..end);
-        }
-        enters
+        self.way = if region.is_near(ray) {
+            region.way(ray)
+        } else {
+            let Some(way) = region.way_from_afar(ray, range.end) else { return false };
+            way
+        };
+        self.set_range::<V>(range);
+        true
     }
 
     /// Goes back into a region.
@@ -89,15 +100,13 @@ impl<S: Scalar> Query<S> {
         ray: &Ray<V>,
         range: Range<S>,
     ) {
-        region.enter(ray, S::INFINITY, &mut self.way);
+        self.enter(region, ray, range.start..S::INFINITY);
         self.set_range::<V>(range);
     }
 
     #[inline(always)]
     fn set_range<V: Vector<Scalar = S>>(&mut self, Range { start, end }: Range<S>) {
-        let start = local_start::<V>(start, self.way.moved);
-        // Nothing in a region is hit before the ray begins anew.
-        self.start = if start > 0.0 { start } else { 0.0 };
+        self.start = first_start::<V>(start, self.way.moved);
         self.set_end(end);
     }
 
@@ -115,7 +124,8 @@ impl<S: Scalar> Query<S> {
     /// Which spheres of a leaf the ray may meet.
     #[inline(always)]
     pub(super) fn near(&mut self, lanes: Lanes, leaf: &Leaf<S>) -> u32 {
-        if self.way.moved == 0.0 {
+        // As bits, that is one comparison with memory: a float may be NaN.
+        if self.way.moved.to_bits() == 0 {
             lanes.run(Near::<S, false> { leaf, query: self })
         } else {
             lanes.run(Near::<S, true> { leaf, query: self })
@@ -195,8 +205,16 @@ impl<V: Vector> Tree<V> {
         // A NaN is no end of a range, and would open the boxes of no child.
         let is_range = end > V::Scalar::ZERO;
         let Some(whole) = self.regions.first().filter(|_| is_range) else { return };
-        let mut query = Query::default();
-        if !query.enter(whole, ray, start..end) {
+        let is_near = whole.is_near(ray);
+        // In either case, and in its place: to copy what was just written takes as long as a visit.
+        let mut query = Query {
+            way: whole.way(ray),
+            start: first_start::<V>(start, 0.0),
+            end: local_end(end, 0.0),
+            entries: Numbers::default(),
+            clearances: Numbers::default(),
+        };
+        if !is_near && !query.enter(whole, ray, start..end) {
             return;
         }
         // Not cleared first: that would take as long as some visits.
