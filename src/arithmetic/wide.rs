@@ -38,6 +38,12 @@ impl Wide {
         Self { value: leading_pair(magnitude << zeros), exponent }
     }
 
+    /// The same of an integer with a sign.
+    pub(crate) fn from_signed(integer: i128, unit: i32) -> Self {
+        let magnitude = Self::from_integer(integer.unsigned_abs(), unit);
+        if integer < 0 { -magnitude } else { magnitude }
+    }
+
     pub(crate) fn is_negative(self) -> bool {
         self.value.hi < 0.0
     }
@@ -55,11 +61,6 @@ impl Wide {
     pub(crate) fn scaled(self, e: i32) -> Pair {
         let e = self.exponent.saturating_add(e);
         Pair { hi: scale(self.value.hi, e), lo: scale(self.value.lo, e) }
-    }
-
-    /// The number rounded to an `f64`, gradually below the normal ones.
-    pub(crate) fn to_f64(self) -> f64 {
-        scale(self.value.hi, self.exponent)
     }
 
     /// The square root of a positive number or zero.

@@ -12,9 +12,10 @@
 
 use glam::DVec3;
 
-use crate::arithmetic::exact::{Factor, Sum, Wide};
+use crate::arithmetic::integer::{Integer, PLACES, Shifted};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::Pair;
+use crate::arithmetic::wide::Wide;
 
 /// The basis u, v, w of a view in the direction from `from` to `to`, all three arguments finite.
 ///
@@ -29,13 +30,21 @@ pub(super) fn basis(from: DVec3, to: DVec3, up: DVec3) -> Option<[DVec3; 3]> {
     Some([u, v, w].map(|axis| axis.map(|coordinate| coordinate.hi).into()))
 }
 
-/// The sum of the products.
+/// The sum of at most four products, rounded to 106 bits.
 fn sum<const N: usize>(products: [[f64; 2]; N]) -> Wide {
-    let mut sum = Sum::zero();
+    /// All numbers are multiples of this, 2⁻¹⁰⁷⁴, and have so many places.
+    const UNIT: i32 = -1074;
+    const NUMBER: u32 = 2098;
+    /// The sum of four products, and what an [`Integer`] has to spare.
+    const DIGITS: usize = (2 * NUMBER + 2).div_ceil(PLACES) as usize + 3;
+    let mut memory = [[0; DIGITS]; 2];
+    let [mut factor, mut sum] = memory.each_mut().map(|digits| Integer::new(digits));
     for [a, b] in products {
-        sum.add_term(Factor::from(a) * Factor::from(b));
+        factor.clear();
+        factor.add_number(Shifted::new(a, UNIT));
+        sum.add_times(&factor, Shifted::new(b, UNIT));
     }
-    sum.value()
+    sum.to_wide(2 * UNIT)
 }
 
 /// The unit vector along `vector`, unless that is zero.

@@ -1,5 +1,4 @@
 use super::*;
-use crate::root::integers::Exact;
 use crate::root::tests::{ExactSurd, assert_exact, exact_root, line};
 use crate::root::{integers, pairs};
 use crate::testing::{Dyadic, ExactChord, Random};
@@ -145,12 +144,8 @@ fn every_careful_step_answers_as_this_one() {
             let expected = bits(ask(line, format, &question));
             let in_pairs =
                 pairs::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
-            let in_integers = if line.is_valid() {
-                integers::chord(line, Exact::new(line), format)
-                    .and_then(|mut chord| question.ask(&mut chord))
-            } else {
-                Verdict::Doubt
-            };
+            let in_integers =
+                integers::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
             for (count, verdict) in counts.iter_mut().zip([in_pairs, in_integers]) {
                 let found = match verdict {
                     Verdict::Miss => None,
@@ -303,8 +298,7 @@ fn a_root_below_the_range_of_pairs_is_not_taken_for_exact() {
     ];
     let line = line(numbers);
     assert!(check(&line, Format::F64));
-    let found = integers::chord(&line, Exact::new(&line), Format::F64)
-        .and_then(|mut chord| ALL.ask(&mut chord));
+    let found = integers::chord(&line, Format::F64).and_then(|mut chord| ALL.ask(&mut chord));
     if let Verdict::Hit(found) = found {
         assert_eq!(bits(Some(found)), bits(ask(&line, Format::F64, &ALL)));
     }
