@@ -186,6 +186,10 @@ impl<'a> Integer<'a> {
             negate(sum);
         }
         for (place, x) in a.digits().iter().enumerate() {
+            // Floats far apart leave many zeros.
+            if *x == 0 {
+                continue;
+            }
             let mut carry = 0;
             for (place, sum) in sum[zeros + place..].iter_mut().enumerate() {
                 let y = match b.get(place) {

@@ -124,8 +124,5 @@ fn in_integers(line: &Line, format: Format, question: &Question) -> Option<Answe
 /// Takes the last step.
 #[inline(always)]
 fn in_any_integers(line: &Line, format: Format, question: &Question) -> Option<Answer> {
-    match format {
-        Format::F32 => surds::answer::<{ surds::F32_DIGITS }>(line, format, question),
-        Format::F64 => surds::answer::<{ surds::F64_DIGITS }>(line, format, question),
-    }
+    surds::answer(line, format, question)
 }
