@@ -219,10 +219,10 @@ impl InPairs<'_> {
     /// s² > 192 v a r² + 1280 u v a r √m, so that what the power errs by makes less than s / 8 a, and the correction, at most s / 64 a,
     /// brings half of that at most; of a plain discriminant, both are less; and 2 v |t| is next to nothing beside s / a > 2⁻⁷² |t|.
     #[inline(always)]
-    fn compare(&self, side: Side, root: &Corrected, number: Midpoint) -> Ordering {
+    fn compare(&self, side: Side, root: &Corrected, number: Midpoint) -> Option<Ordering> {
         let above = root.above(number);
         if above.abs() > 2.0 * (root.error + PAIR_ERROR * root.t.hi.abs()) {
-            return if above > 0.0 { Ordering::Greater } else { Ordering::Less };
+            return above.partial_cmp(&0.0);
         }
         let exponent = number.exponent + self.scaled.exponent();
         let number = Midpoint { exponent, ..number };
@@ -230,8 +230,8 @@ impl InPairs<'_> {
         match (certain, side) {
             (None, _) => integers::compare_root(self.line, side, number),
             // Nearer to this root than to the other, outside is before the near one and behind the far one.
-            (Some(quadratic), Side::Near) => quadratic,
-            (Some(quadratic), Side::Far) => quadratic.reverse(),
+            (Some(quadratic), Side::Near) => Some(quadratic),
+            (Some(quadratic), Side::Far) => Some(quadratic.reverse()),
         }
     }
 }
