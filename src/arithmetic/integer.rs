@@ -2,6 +2,7 @@
 
 use super::float::Float;
 use super::scaling::integer_and_exponent;
+use super::wide::Wide;
 
 #[cfg(test)]
 mod tests;
@@ -141,6 +142,29 @@ impl<'a> Integer<'a> {
         Float { value: if self.is_negative { -value } else { value }, exponent }
     }
 
+    /// The number times 2^`unit`, rounded to 106 bits.
+    pub(crate) fn to_wide(&self, unit: i32) -> Wide {
+        let zeros = self.digits().last().map_or(0, |digit| digit.leading_zeros());
+        // The leading 128 bits, of as many digits and one.
+        let (mut leading, mut place) = (0, 128 + zeros);
+        for digit in self.digits().iter().rev().take((128 / PLACES + 1) as usize) {
+            let digit = u128::from(*digit);
+            leading |= match place.checked_sub(PLACES) {
+                Some(places) => digit << places,
+                None => digit >> (PLACES - place),
+            };
+            place = place.saturating_sub(PLACES);
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_possible_wrap,
+            reason = "some thousand"
+        )]
+        let places = (self.len * PLACES as usize) as i32 - 128 - zeros as i32;
+        let magnitude = Wide::from_integer(leading, unit + places);
+        if self.is_negative { -magnitude } else { magnitude }
+    }
+
     fn digits(&self) -> &[Digit] {
         &self.digits[..self.len]
     }
@@ -162,6 +186,10 @@ impl<'a> Integer<'a> {
             negate(sum);
         }
         for (place, x) in a.digits().iter().enumerate() {
+            // Floats far apart leave many zeros.
+            if *x == 0 {
+                continue;
+            }
             let mut carry = 0;
             for (place, sum) in sum[zeros + place..].iter_mut().enumerate() {
                 let y = match b.get(place) {

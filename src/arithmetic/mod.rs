@@ -1,7 +1,6 @@
 //! The arithmetic that the two derivations are carried out in.
 
 pub(crate) mod comparison;
-pub(crate) mod exact;
 pub(crate) mod float;
 pub(crate) mod integer;
 pub(crate) mod number;

@@ -54,22 +54,6 @@ impl Product {
         Self { high: self.high - other.high - u128::from(borrow), low }
     }
 
-    /// The five digits of the integer, below 2²⁵⁶, times 2^`places`, the least significant first; `places` is below 64.
-    #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "the digits of what is left")]
-    pub(crate) fn shifted(self, places: u32) -> [u64; 5] {
-        let Self { high, low } = self;
-        let digits = [low as u64, (low >> 64) as u64, high as u64, (high >> 64) as u64];
-        let mut shifted = [0; 5];
-        let mut spill = 0;
-        for (shifted, digit) in shifted.iter_mut().zip(digits) {
-            let wide = u128::from(digit) << places | spill;
-            (*shifted, spill) = (wide as u64, wide >> 64);
-        }
-        shifted[4] = spill as u64;
-        shifted
-    }
-
     /// The integer times 2^`unit`, rounded to 106 bits.
     pub(crate) fn to_wide(self, unit: i32) -> Wide {
         let zeros = self.high.leading_zeros();

@@ -38,6 +38,12 @@ impl Wide {
         Self { value: leading_pair(magnitude << zeros), exponent }
     }
 
+    /// The same of an integer with a sign.
+    pub(crate) fn from_signed(integer: i128, unit: i32) -> Self {
+        let magnitude = Self::from_integer(integer.unsigned_abs(), unit);
+        if integer < 0 { -magnitude } else { magnitude }
+    }
+
     pub(crate) fn is_negative(self) -> bool {
         self.value.hi < 0.0
     }

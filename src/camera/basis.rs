@@ -10,13 +10,12 @@
 //! cancel, and what is left of them could be all rounding. So both are computed exactly, which also tells for sure whether
 //! there is anything left, and the basis in pairs, of which only the result is rounded to f64.
 
-use core::array;
-
 use glam::DVec3;
 
-use crate::arithmetic::exact::{Factor, Sum, Wide};
+use crate::arithmetic::integer::{Integer, PLACES, Shifted};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::Pair;
+use crate::arithmetic::wide::Wide;
 
 /// The basis u, v, w of a view in the direction from `from` to `to`, all three arguments finite.
 ///
@@ -59,15 +58,30 @@ pub(super) fn negated_dot(a: DVec3, b: DVec3) -> f64 {
     sum([[-a.x, b.x], [-a.y, b.y], [-a.z, b.z]]).to_f64()
 }
 
-/// The sum of the products.
+/// The sum of at most six products of two or three factors, rounded to 106 bits.
 fn sum<const N: usize, const FACTORS: usize>(products: [[f64; FACTORS]; N]) -> Wide {
-    let mut sum = Sum::zero();
+    /// All numbers are multiples of this, 2⁻¹⁰⁷⁴, and have so many places.
+    const UNIT: i32 = -1074;
+    const NUMBER: u32 = 2098;
+    /// The sum of six products, and what an [`Integer`] has to spare.
+    const DIGITS: usize = (3 * NUMBER + 3).div_ceil(PLACES) as usize + 3;
+    let mut memory = [[0; DIGITS]; 3];
+    let [mut product, mut next, mut sum] = memory.each_mut().map(|digits| Integer::new(digits));
+    let mut unit = 0;
     for factors in products {
-        let [a, b, c] =
-            array::from_fn(|i| factors.get(i).map_or(Factor::ONE, |x| Factor::from(*x)));
-        sum.add(1, [a * b, c.into()]);
+        let [first, middle @ .., last] = factors.as_slice() else { continue };
+        product.clear();
+        product.add_number(Shifted::new(*first, UNIT));
+        unit = 2 * UNIT;
+        for &factor in middle {
+            next.clear();
+            next.add_times(&product, Shifted::new(factor, UNIT));
+            core::mem::swap(&mut product, &mut next);
+            unit += UNIT;
+        }
+        sum.add_times(&product, Shifted::new(*last, UNIT));
     }
-    sum.value()
+    sum.to_wide(unit)
 }
 
 /// The unit vector along `vector`, unless that is zero.

@@ -3,7 +3,8 @@
 use core::error::Error;
 use core::fmt::{Display, Formatter, Result};
 
-/// The error type of the constructors of [`Frame`](crate::Frame) and [`Camera`](crate::Camera): which argument is invalid, and why.
+/// The error type of the constructors of [`Frame`](crate::Frame) and [`Camera`](crate::Camera): which argument is invalid, and
+/// why.
 ///
 /// If several arguments are invalid, the error is about one of them.
 ///
@@ -42,8 +43,8 @@ pub enum CameraError {
     FovOutOfRange,
     /// The aspect ratio, width over height, is zero or negative.
     AspectNotPositive,
-    /// The last row of the view matrix is not (0, 0, 0, 1), as it is of a rotation and a translation. The matrix may be transposed,
-    /// or multiplied by a projection.
+    /// The last row of the view matrix is not (0, 0, 0, 1), as it is of a rotation and a translation. The matrix may be
+    /// transposed, or multiplied by a projection.
     ViewMatrixProjects,
     /// The view matrix scales: of the vectors in its first three rows and columns, a row is not of length 1.
     ViewMatrixScales,
@@ -52,8 +53,8 @@ pub enum CameraError {
     /// The last row of the projection matrix is neither (0, 0, -1, 0) nor (0, 0, 1, 0), as it is of a perspective projection, nor
     /// (0, 0, 0, 1), as it is of an orthographic one. The matrix may be transposed, or multiplied by a view.
     ProjectionMatrixUnknown,
-    /// The projection matrix rotates or shears the image, or moves the eye: its x or y is not a scale and an offset of the x or y of
-    /// view space.
+    /// The projection matrix rotates or shears the image, or moves the eye: its x or y is not a scale and an offset of the x or y
+    /// of view space.
     ProjectionMatrixSkews,
     /// The projection matrix mirrors the image, left to right.
     ProjectionMatrixMirrors,

@@ -1,15 +1,15 @@
 //! Cameras from the view and projection matrices of a renderer, and back.
 //!
-//! A view matrix moves the eye to the origin of view space, where x is to the right and y upwards in the image. Its rotation has the
-//! rows U, V and W, or -W where z is forwards. A projection matrix scales and moves x and y, and divides them by w, the distance ahead
-//! of the eye (perspective) or 1 (orthographic):
+//! A view matrix moves the eye to the origin of view space, where x is to the right and y upwards in the image. Its rotation has
+//! the rows U, V and W, or -W where z is forwards. A projection matrix scales and moves x and y, and divides them by w, the
+//! distance ahead of the eye (perspective) or 1 (orthographic):
 //!
 //! ```text
 //!     x of the image = (a x + b z + c) / w          w = -z, z or 1
 //! ```
 //!
-//! It runs from -1 on the left to 1 on the right. In the plane at distance 1, where w is 1, that is a view rectangle. How a matrix
-//! computes the depth does not matter to the rays.
+//! It runs from -1 on the left to 1 on the right. In the plane at distance 1, where w is 1, that is a view rectangle. How a
+//! matrix computes the depth does not matter to the rays.
 
 use glam::{DMat4, DVec3, DVec4};
 
@@ -20,12 +20,12 @@ use crate::vector::Matrix;
 
 /// How far the rows of a view matrix may be from orthonormal: a product of two of them from 0, or of one with itself from 1.
 ///
-/// Far above what rounding leaves in `f32`, a few 2⁻²⁴, and a hundred rotations that are multiplied, and below any scale that someone
-/// chooses.
+/// Far above what rounding leaves in `f32`, a few 2⁻²⁴, and a hundred rotations that are multiplied, and below any scale that
+/// someone chooses.
 const RIGID: f64 = 1e-4;
 
-/// How far an orthographic depth may be from 1/2 in the plane of the eye where the range of depths is meant to have its middle there:
-/// what `f32` leaves of it, (near + far) / (far - near), after three roundings.
+/// How far an orthographic depth may be from 1/2 in the plane of the eye where the range of depths is meant to have its middle
+/// there: what `f32` leaves of it, (near + far) / (far - near), after three roundings.
 const MIDDLE: f64 = 1e-6;
 
 /// Which way the camera looks in view space.
@@ -38,12 +38,14 @@ enum Forward {
 }
 
 impl<V: Vector> Frame<V> {
-    /// Creates the frame of a view matrix (`Mat4`, or for `DVec3` `DMat4`), the matrix from world space to view space, with x to the right, y upwards and z backwards:
-    /// right-handed view space.
+    /// Creates the frame of a view matrix, the matrix from world space to view space, with x to the right, y upwards and z
+    /// backwards: right-handed view space.
     ///
-    /// The eye is the exact point that the matrix moves to the origin, rounded to the precision of `V`. The rows of the rotation are
-    /// U, V and W up to rounding: [`Camera::from_matrices`] says how near. For a matrix that mirrors, as that of a planar reflection
-    /// does, U × V is -W instead of W.
+    /// The matrix is a `Mat4`, or for `DVec3` a `DMat4`.
+    ///
+    /// The eye is the exact point that the matrix moves to the origin, rounded to the precision of `V`. The rows of the rotation
+    /// are U, V and W up to rounding: [`Camera::from_matrices`] says how near. For a matrix that mirrors, as that of a planar
+    /// reflection does, U × V is -W instead of W.
     ///
     /// For a left-handed view space, where z is forwards, negate the third row first:
     ///
@@ -67,18 +69,18 @@ impl<V: Vector> Frame<V> {
     ///
     /// # Errors
     ///
-    /// If the matrix or the eye is not finite, its last row is not (0, 0, 0, 1), or it scales or shears: a product of two of its rows is
-    /// off by more than 10⁻⁴ from 0, or of one with itself from 1.
+    /// If the matrix or the eye is not finite, its last row is not (0, 0, 0, 1), or it scales or shears: a product of two of its
+    /// rows is off by more than 10⁻⁴ from 0, or of one with itself from 1.
     #[doc(alias("extrinsics", "world_to_view", "world_to_camera"))]
     pub fn from_view_matrix<M: Matrix<Vector = V>>(view_matrix: &M) -> Result<Self, CameraError> {
         Self::read(view_matrix.to_f64(), Forward::NegativeZ)
     }
 
-    /// Returns the view matrix, the matrix from world space to view space, with x to the right, y upwards and z backwards: right-handed
-    /// view space.
+    /// Returns the view matrix, the matrix from world space to view space, with x to the right, y upwards and z backwards:
+    /// right-handed view space.
     ///
-    /// For a renderer whose view space is left-handed, negate the third row: see [`Camera::view_matrix`]. Each element is rounded once,
-    /// from an `f64` of the frame's basis. A translation beyond the largest finite value becomes infinite.
+    /// For a renderer whose view space is left-handed, negate the third row: see [`Camera::view_matrix`]. Each element is rounded
+    /// once, from an `f64` of the frame's basis. A translation beyond the largest finite value becomes infinite.
     ///
     /// ```
     /// use eyeray::Frame;
@@ -133,7 +135,10 @@ impl<V: Vector> Frame<V> {
 }
 
 impl<V: Vector> Camera<V> {
-    /// Creates the camera of a renderer that has a view matrix and a projection matrix (`Mat4`, or for `DVec3` `DMat4`), for picking or for rendering the same image.
+    /// Creates the camera of a renderer that has a view matrix and a projection matrix, for picking or for rendering the same
+    /// image.
+    ///
+    /// The matrices are two `Mat4`, or for `DVec3` two `DMat4`.
     ///
     /// The rays come from the numbers of the two matrices directly. They are more accurate than those of
     /// `(projection_matrix * view_matrix).inverse()`, above all far from the world's origin and where the far plane is at infinity.
@@ -160,40 +165,40 @@ impl<V: Vector> Camera<V> {
     /// Matrices multiply column vectors, as glam's do. View space has x to the right and y upwards. What else the conventions of
     /// renderers differ in is read from the projection matrix:
     ///
-    /// - **Perspective or orthographic**: a perspective projection may be finite, infinite, reversed or off-center. Its camera has its
-    ///   view rectangle at distance 1.
-    /// - **Right- or left-handed view space**: z is backwards or forwards. A perspective projection tells which by its last row. An
-    ///   orthographic one looks to the side where the depth is 1/2, which is true for depths from 0 to 1 and from -1 to 1, reversed or
-    ///   not, if what is near is not behind the eye. If depths from 0 to 1 reach as far behind the eye as ahead, view space is taken to
-    ///   be right-handed.
-    /// - **y upwards or downwards in clip space** (Vulkan): downwards if the scale of y is negative. The image is the same, and so is
-    ///   the camera: what is upwards in view space is at the top. [`pixel_ray`](Self::pixel_ray) counts from the top left corner in each
-    ///   convention.
+    /// - **Perspective or orthographic**: a perspective projection may be finite, infinite, reversed or off-center. Its camera
+    ///   has its view rectangle at distance 1.
+    /// - **Right- or left-handed view space**: z is backwards or forwards. A perspective projection tells which by its last row.
+    ///   An orthographic one looks to the side where the depth is 1/2, which is true for depths from 0 to 1 and from -1 to 1,
+    ///   reversed or not, if what is near is not behind the eye. If depths from 0 to 1 reach as far behind the eye as ahead, view
+    ///   space is taken to be right-handed.
+    /// - **y upwards or downwards in clip space** (Vulkan): downwards if the scale of y is negative. The image is the same, and
+    ///   so is the camera: what is upwards in view space is at the top. [`pixel_ray`](Self::pixel_ray) counts from the top left
+    ///   corner in each convention.
     /// - **Depths from -1 to 1, or from 0 to 1**: rays do not depend on it.
     ///
     /// The basis of a left-handed view space is left-handed: U × V is -W.
     ///
     /// # Accuracy
     ///
-    /// The eye is the exact point that the view matrix moves to the origin, rounded to the precision of `V`. Each side of the view
-    /// rectangle is the exact one within 2⁻⁵² of itself, in both precisions.
+    /// The eye is the exact point that the view matrix moves to the origin, rounded to the precision of `V`. Each side of the
+    /// view rectangle is the exact one within 2⁻⁵² of itself, in both precisions.
     ///
-    /// The rows of a rotation are orthonormal up to rounding only, those of the camera's basis as nearly as `f64` allows. With ε the
-    /// most by which a product of two rows is off from 0, or of a row with itself from 1, the direction of an eye ray is within 2 ε of
-    /// its length from the direction in which the two matrices unproject the pixel, beside the errors that [`Camera`] states and that of
-    /// the view rectangle. The origin of an orthographic ray is within 2 ε of the length of (u, v), likewise. glam's `look_to_mat4`
-    /// has an ε below 32 ulp of 1 where up is at least 6° from the direction of view.
+    /// The rows of a rotation are orthonormal up to rounding only, those of the camera's basis as nearly as `f64` allows. With ε
+    /// the most by which a product of two rows is off from 0, or of a row with itself from 1, the direction of an eye ray is
+    /// within 2 ε of its length from the direction in which the two matrices unproject the pixel, beside the errors that
+    /// [`Camera`] states and that of the view rectangle. The origin of an orthographic ray is within 2 ε of the length of (u, v),
+    /// likewise. glam's `look_to_mat4` has an ε below 32 ulp of 1 where up is at least 6° from the direction of view.
     ///
-    /// A camera that is made from the matrices of another one has its eye within 4 u |e| of the other's, and its basis within 5 u, where u
-    /// is half an ulp of 1: 2⁻²⁴ in `f32`, 2⁻⁵³ in `f64`.
+    /// A camera that is made from the matrices of another one has its eye within 4 u |e| of the other's, and its basis within 5
+    /// u, where u is half an ulp of 1: 2⁻²⁴ in `f32`, 2⁻⁵³ in `f64`.
     ///
     /// `cargo test --test camera unprojection` compares with exact arithmetic, also 10⁷ from the world's origin.
     ///
     /// # Errors
     ///
-    /// If a matrix, the eye or the view rectangle is not finite, if the view matrix is not rigid, as
-    /// [`Frame::from_view_matrix`] says, or if the projection matrix is none of the above: its last row is that of none, it is flat, it
-    /// mirrors the image from left to right, or its x or y is not a scale and an offset.
+    /// If a matrix, the eye or the view rectangle is not finite, if the view matrix is not rigid, as [`Frame::from_view_matrix`]
+    /// says, or if the projection matrix is none of the above: its last row is that of none, it is flat, it mirrors the image
+    /// from left to right, or its x or y is not a scale and an offset.
     #[doc(alias("view_projection", "unproject", "inverse_projection", "intrinsics"))]
     pub fn from_matrices<M: Matrix<Vector = V>>(
         view_matrix: &M,
@@ -215,15 +220,15 @@ impl<V: Vector> Camera<V> {
             _ => CameraError::ProjectionMatrixFlat,
         })
     }
-    /// Returns the view matrix, the matrix from world space to view space, with x to the right, y upwards and z backwards: right-handed
-    /// view space.
+    /// Returns the view matrix, the matrix from world space to view space, with x to the right, y upwards and z backwards:
+    /// right-handed view space.
     ///
     /// Each element is rounded once, from an `f64` of the camera's frame.
     ///
     /// # The projection matrix
     ///
-    /// It depends on what the renderer calls a depth. glam has a function for each convention, and the view rectangle is moved to the
-    /// near plane for it:
+    /// It depends on what the renderer calls a depth. glam has a function for each convention, and the view rectangle is moved to
+    /// the near plane for it:
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};
@@ -262,8 +267,8 @@ impl<V: Vector> Camera<V> {
     /// # }
     /// ```
     ///
-    /// For a left-handed view space, where z is forwards, take the functions of `glam::camera::lh`, and negate the third row of the view
-    /// matrix:
+    /// For a left-handed view space, where z is forwards, take the functions of `glam::camera::lh`, and negate the third row of
+    /// the view matrix:
     ///
     /// ```
     /// # use eyeray::{Camera, ViewRect};
@@ -300,8 +305,8 @@ fn kind(matrix: &DMat4) -> Option<(Forward, Projection)> {
 
 /// Which way an orthographic projection looks: to where the depth is 1/2.
 ///
-/// Of depths from 0 to 1, that is the middle, and of those from -1 to 1, a quarter of the way from one end. Both are ahead of the eye
-/// where all that is visible is so, reversed or not.
+/// Of depths from 0 to 1, that is the middle, and of those from -1 to 1, a quarter of the way from one end. Both are ahead of the
+/// eye where all that is visible is so, reversed or not.
 fn forward_of_orthographic(matrix: &DMat4) -> Forward {
     let (slope, missing) = (matrix.z_axis.z, 0.5 - matrix.w_axis.z);
     let is_forwards = (missing > MIDDLE && slope > 0.0) || (missing < -MIDDLE && slope < 0.0);

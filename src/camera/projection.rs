@@ -72,9 +72,9 @@ impl<V: Vector> Camera<V> {
     pub(super) fn project_in_f64(&self, point: V) -> Option<DVec2> {
         let seen = self.see_ahead(point)?;
         Some(if self.is_moderate(&seen) {
-            self.to_view_plane(&seen, |x| x).into()
+            self.in_view_plane(&seen, |x| x).into()
         } else {
-            rounded(self.to_view_plane_of_any_exponent(&seen))
+            rounded(self.in_view_plane_of_any_exponent(&seen))
         })
     }
 
@@ -88,26 +88,26 @@ impl<V: Vector> Camera<V> {
         let seen = self.see_ahead(point)?;
         let size = [width, height].map(|pixels| f64::from(pixels.max(1)));
         Some(if self.is_moderate(&seen) {
-            self.to_image(self.to_view_plane(&seen, |x| x), size, |x| x).into()
+            self.in_image(self.in_view_plane(&seen, |x| x), size, |x| x).into()
         } else {
-            rounded(self.to_image(self.to_view_plane_of_any_exponent(&seen), size, float))
+            rounded(self.in_image(self.in_view_plane_of_any_exponent(&seen), size, float))
         })
     }
 
     #[cold]
-    fn to_view_plane_of_any_exponent(&self, seen: &Seen) -> [Float; 2] {
+    fn in_view_plane_of_any_exponent(&self, seen: &Seen) -> [Float; 2] {
         let unit = match self.projection {
             Projection::Orthographic => seen.unit,
             // In a quotient, the unit is no matter.
             Projection::Perspective { .. } => 0,
         };
         let in_units = |along: Float| Float { exponent: along.exponent + unit, ..along };
-        self.to_view_plane(seen, float).map(in_units)
+        self.in_view_plane(seen, float).map(in_units)
     }
 
     /// The point of the view plane, in such numbers, and for an orthographic camera in the unit of what is seen.
     #[inline]
-    fn to_view_plane<N: Number>(&self, seen: &Seen, number: impl Fn(f64) -> N) -> [N; 2] {
+    fn in_view_plane<N: Number>(&self, seen: &Seen, number: impl Fn(f64) -> N) -> [N; 2] {
         let in_plane = seen.in_plane.to_array().map(&number);
         match self.projection {
             Projection::Orthographic => in_plane,
@@ -119,7 +119,7 @@ impl<V: Vector> Camera<V> {
 
     /// The pixel of a point of the view plane.
     #[inline]
-    fn to_image<N: Number>(
+    fn in_image<N: Number>(
         &self,
         [u, v]: [N; 2],
         [width, height]: [f64; 2],
@@ -135,8 +135,8 @@ impl<V: Vector> Camera<V> {
 
     /// Whether no result is beyond the range of `f64`, nor any on the way to it.
     ///
-    /// Of numbers of 2⁻²⁰⁰ to 2²⁰⁰, the products and quotients of three are 2⁻⁶⁰⁰ to 2⁶⁰⁰. A difference from another is 0 or at least
-    /// an ulp, and once more divided and multiplied, it stays within 2⁻⁸⁵³ and 2⁸³³.
+    /// Of numbers of 2⁻²⁰⁰ to 2²⁰⁰, the products and quotients of three are 2⁻⁶⁰⁰ to 2⁶⁰⁰. A difference from another is 0 or at
+    /// least an ulp, and once more divided and multiplied, it stays within 2⁻⁸⁵³ and 2⁸³³.
     #[inline]
     fn is_moderate(&self, seen: &Seen) -> bool {
         const LEAST: f64 = f64::from_bits((1023 - 200) << 52);

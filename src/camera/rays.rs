@@ -12,7 +12,33 @@ use crate::{Ray, Vector};
 /// An iterator over the rays of an image, row by row: see [`Camera::rays`].
 ///
 /// The length is exact, unless it exceeds `usize` on a target of less than 64 bits: then `len` is `usize::MAX`. `nth`, `last` and
-/// `count` take constant time, so that `skip` gives each thread its own rows.
+/// `count` take constant time, so that `skip` gives each thread its own rows:
+///
+/// ```
+/// use eyeray::{Camera, Hittable, Sphere};
+/// use glam::{Vec3, vec3};
+/// use rayon::prelude::*;
+///
+/// # fn main() -> Result<(), eyeray::CameraError> {
+/// let camera = Camera::perspective_fov(vec3(0.0, 0.0, 5.0), Vec3::ZERO, Vec3::Y, 0.8, 1.5)?;
+/// // Any shapes, for many threads.
+/// let scene: Vec<Box<dyn Hittable + Send + Sync>> = vec![Box::new(Sphere::new(Vec3::ZERO, 1.0))];
+///
+/// const WIDTH: usize = 60;
+/// let mut distances = vec![f32::INFINITY; WIDTH * 40];
+/// distances.par_chunks_mut(WIDTH).enumerate().for_each(|(row, distances)| {
+///     for (distance, ray) in distances.iter_mut().zip(camera.rays(60, 40).skip(row * WIDTH)) {
+///         if let Some(hit) = scene.intersect(&ray, 0.0..f32::INFINITY) {
+///             *distance = hit.t;
+///         }
+///     }
+/// });
+/// assert!(distances[0] == f32::INFINITY && distances[20 * WIDTH + 30] < 5.0);
+/// # Ok(())
+/// # }
+/// ```
+///
+/// rayon's `par_bridge` would lose the order of the rays.
 #[derive(Clone, Debug)]
 #[must_use = "iterators are lazy and do nothing unless consumed"]
 pub struct Rays<V: Vector = glam::Vec3> {

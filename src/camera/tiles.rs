@@ -141,8 +141,8 @@ impl<V: Vector> Tile<V> {
 
     /// Returns an iterator over the pixels of the tile: the column x and the row y of each, in the image.
     ///
-    /// They go in squares of 8 by 8, each of which goes in squares of 4 by 4, each of which goes row by row: every 64 and every 16 of
-    /// them lie together, except at the edges of the image.
+    /// They go in squares of 8 by 8, each of which goes in squares of 4 by 4, each of which goes row by row: every 64 and every
+    /// 16 of them lie together, except at the edges of the image.
     ///
     /// ```
     /// use eyeray::Camera;
@@ -199,8 +199,8 @@ impl Places {
     /// The place after this one, unless that is the last.
     #[inline]
     fn after(&self, (x, y): (u32, u32)) -> (u32, u32) {
-        // In steps of a pixel within a square of 4, of such a square within one of 8, and of that within the rectangle: by the bits
-        // of x and y that tell one square from another.
+        // In steps of a pixel within a square of 4, of such a square within one of 8, and of that within the rectangle: by the
+        // bits of x and y that tell one square from another.
         for [step, square] in [[!0, !3], [!3, !7], [!7, 0]] {
             let last = |x: u32, square: u32| x | !square;
             let [right, below] = [x, y].map(|x| last(x, step).saturating_add(1));

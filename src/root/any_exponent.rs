@@ -163,12 +163,7 @@ fn listed(answer: Option<Answer>) -> Option<[f64; 7]> {
 fn wrong_step(line: &Line, format: Format, question: &Question) -> Option<&'static str> {
     let expected = listed(last_step(line, format, question));
     let in_pairs = pairs::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
-    let in_integers = if line.is_valid() {
-        integers::chord(line, Exact::new(line), format)
-            .and_then(|mut chord| question.ask(&mut chord))
-    } else {
-        Verdict::Doubt
-    };
+    let in_integers = integers::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
     let is_wrong = |verdict| match verdict {
         Verdict::Miss => expected.is_some(),
         Verdict::Hit(answer) => listed(Some(answer)) != expected,

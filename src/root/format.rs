@@ -62,13 +62,13 @@ impl Format {
     /// Rounds the exact value that `t` is known to be within `relative_error` of.
     ///
     /// `compare` says how the exact value compares with a number midway between two neighbors, and is asked only if the answer
-    /// depends on it. `None` where more than two neighbors are possible.
+    /// depends on it. `None` where it does not know, and where more than two neighbors are possible.
     #[inline]
     pub(crate) fn round(
         self,
         t: Pair,
         relative_error: f64,
-        compare: impl FnOnce(Midpoint) -> Ordering,
+        compare: impl FnOnce(Midpoint) -> Option<Ordering>,
     ) -> Option<f64> {
         // Nor where it is NaN.
         if relative_error.is_nan() || relative_error >= 0.25 {
@@ -82,18 +82,19 @@ impl Format {
             return Some(low);
         }
         let ends = Ends { low, high };
-        match self {
+        let low_is_even = match self {
             Self::F32 => {
                 #[expect(clippy::cast_possible_truncation, reason = "they are rounded already")]
                 let [low, high] = [low as f32, high as f32];
                 let are_neighbors = high.next_below() == low;
-                are_neighbors.then(|| ends.choose(self, low.to_bits() % 2 == 0, compare))
+                are_neighbors.then_some(low.to_bits() % 2 == 0)
             }
             Self::F64 => {
                 let are_neighbors = high.next_below() == low;
-                are_neighbors.then(|| ends.choose(self, low.to_bits() % 2 == 0, compare))
+                are_neighbors.then_some(low.to_bits() % 2 == 0)
             }
-        }
+        }?;
+        ends.choose(self, low_is_even, compare)
     }
 
     /// Rounds to the nearest number.
@@ -132,30 +133,6 @@ impl Format {
         }
     }
 
-    /// Rounds the exact value that `t` is within an ulp of, above 2⁹⁰⁰ or below 2⁻⁹⁰⁰.
-    ///
-    /// `compare` says how the exact value compares with a number midway between two neighbors.
-    pub(crate) fn round_at_the_ends(self, t: f64, compare: impl Fn(Midpoint) -> Ordering) -> f64 {
-        if self == Self::F32 {
-            #[expect(clippy::cast_possible_truncation, reason = "to zero or to infinity")]
-            return f64::from(t as f32);
-        }
-        // Each neighbor, unless the exact value is on this side of midway.
-        let belongs_beyond = |neighbor: f64, beyond: Ordering| {
-            let ends = Ends { low: t.min(neighbor), high: t.max(neighbor) };
-            let compared = compare(ends.midpoint(self));
-            compared == beyond || (compared == Ordering::Equal && t.to_bits() % 2 == 1)
-        };
-        let (below, above) = (t.next_below(), -(-t).next_below());
-        if t != f64::INFINITY && belongs_beyond(above, Ordering::Greater) {
-            above
-        } else if t != f64::NEG_INFINITY && belongs_beyond(below, Ordering::Less) {
-            below
-        } else {
-            t
-        }
-    }
-
     /// The least exponent of an ulp.
     pub(crate) const fn least_exponent(self) -> i32 {
         match self {
@@ -185,13 +162,13 @@ impl Ends {
         &self,
         format: Format,
         low_is_even: bool,
-        compare: impl FnOnce(Midpoint) -> Ordering,
-    ) -> f64 {
-        match compare(self.midpoint(format)) {
+        compare: impl FnOnce(Midpoint) -> Option<Ordering>,
+    ) -> Option<f64> {
+        Some(match compare(self.midpoint(format))? {
             Ordering::Less => self.low,
             Ordering::Equal if low_is_even => self.low,
             _ => self.high,
-        }
+        })
     }
 
     /// The number midway. Infinity stands for the power of two that would come next.

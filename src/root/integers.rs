@@ -1,18 +1,14 @@
-//! The geometric derivation in integers: exact, and so never in doubt of a root.
+//! The geometric derivation in integers of 64 bits and products of 256: exact, where the digits of the coordinates span no more
+//! than 61 binary places, as they do unless by design ([`Narrow`]).
 //!
-//! Points are computed from numbers rounded to 96 bits, and may be in doubt.
-//!
-//! Where the digits of the coordinates span no more than 61 binary places, as they do unless by design, a coordinate is an
-//! `i64` and 256 bits hold the discriminant ([`Narrow`]). Otherwise a sum of products is collected in an accumulator that holds
-//! any ([`Sums`]).
+//! A root is in doubt only where a number that it is compared with has no room beside the coordinates. Points are computed from
+//! numbers rounded to 96 bits, and may be in doubt.
 
 mod narrow;
-mod sums;
 
 use core::cmp::Ordering;
 
 use narrow::Narrow;
-use sums::Sums;
 
 use super::crossing::{Crossings, Found, Line, Side, Verdict};
 use super::format::{Format, Midpoint};
@@ -42,82 +38,16 @@ pub(super) const ROOT_ERROR: f64 = 4096.0 * V;
 /// Where a pair loses nothing.
 const MIDDLE: i32 = 900;
 
-/// A line and a sphere in integers: every number that they give is exact but for its rounding to at least 96 bits.
-pub(super) enum Exact {
-    Narrow(Narrow),
-    Wide(Sums),
-}
-
-impl Exact {
-    pub(super) fn new(line: &Line) -> Self {
-        Narrow::new(line).map_or_else(|| Self::Wide(Sums::new(line)), Self::Narrow)
-    }
-
-    /// Whether the coordinates span so many digits that only accumulators hold their products.
-    #[cfg(test)]
-    fn is_wide(&self) -> bool {
-        matches!(self, Self::Wide(_))
-    }
-
-    /// d·d.
-    fn a(&self) -> Wide {
-        match self {
-            Self::Narrow(narrow) => narrow.a(),
-            Self::Wide(sums) => sums.a(),
-        }
-    }
-
-    /// d·o.
-    fn h(&self) -> Wide {
-        match self {
-            Self::Narrow(narrow) => narrow.h(),
-            Self::Wide(sums) => sums.h(),
-        }
-    }
-
-    /// o·o - r².
-    fn power(&self) -> Wide {
-        match self {
-            Self::Narrow(narrow) => narrow.power(),
-            Self::Wide(sums) => sums.power(),
-        }
-    }
-
-    /// r² a - |o × d|².
-    fn discriminant(&self) -> Wide {
-        match self {
-            Self::Narrow(narrow) => narrow.discriminant(),
-            Self::Wide(sums) => sums.discriminant(),
-        }
-    }
-
-    /// o × d.
-    fn moment(&self) -> [Wide; 3] {
-        match self {
-            Self::Narrow(narrow) => narrow.moment(),
-            Self::Wide(sums) => sums.moment(),
-        }
-    }
-
-    /// How the root on that side compares with a number midway between two floats.
-    fn compare_root(&self, line: &Line, side: Side, number: Midpoint) -> Ordering {
-        let quadratic = match self {
-            Self::Narrow(narrow) => {
-                narrow.quadratic_at(number).unwrap_or_else(|| Sums::new(line).quadratic_at(number))
-            }
-            Self::Wide(sums) => sums.quadratic_at(number),
-        };
+impl Narrow {
+    /// How the root on that side compares with a number midway between two floats. `None` where 256 bits have no room for that.
+    fn compare_root(&self, line: &Line, side: Side, number: Midpoint) -> Option<Ordering> {
+        let quadratic = self.quadratic_at(number)?;
         if quadratic.is_lt() {
             // Within the chord.
-            return if side == Side::Near { Ordering::Less } else { Ordering::Greater };
+            return Some(if side == Side::Near { Ordering::Less } else { Ordering::Greater });
         }
-        let ahead = plainly_ahead(line, number).unwrap_or_else(|| match self {
-            Self::Narrow(narrow) => {
-                narrow.ahead_of(number).unwrap_or_else(|| Sums::new(line).ahead_of(number))
-            }
-            Self::Wide(sums) => sums.ahead_of(number),
-        });
-        match (side, quadratic) {
+        let ahead = plainly_ahead(line, number).or_else(|| self.ahead_of(number))?;
+        Some(match (side, quadratic) {
             // Outside the chord, the number lies before both roots or behind both.
             (_, Ordering::Greater) => ahead,
             // At a root: at the near one where the closest approach is still ahead, at the far one where it is past.
@@ -125,7 +55,7 @@ impl Exact {
             (Side::Far, _) if ahead.is_le() => Ordering::Equal,
             (Side::Near, _) => Ordering::Less,
             (Side::Far, _) => Ordering::Greater,
-        }
+        })
     }
 }
 
@@ -145,25 +75,29 @@ fn plainly_ahead(line: &Line, number: Midpoint) -> Option<Ordering> {
     if is_certain { ahead.partial_cmp(&0.0) } else { None }
 }
 
-/// How the root on that side compares with a number midway between two floats.
+/// How the root on that side compares with a number midway between two floats. `None` where only integers of many digits tell.
 #[cold]
 #[inline(never)]
-pub(super) fn compare_root(line: &Line, side: Side, number: Midpoint) -> Ordering {
-    Exact::new(line).compare_root(line, side, number)
+pub(super) fn compare_root(line: &Line, side: Side, number: Midpoint) -> Option<Ordering> {
+    Narrow::new(line)?.compare_root(line, side, number)
 }
 
 /// The chord, and what it belongs to.
 pub(super) struct InIntegers<'a> {
     line: &'a Line,
     format: Format,
-    exact: Exact,
+    exact: Narrow,
     a: Wide,
     h: Wide,
     half_chord: Wide,
 }
 
-/// Takes the chord of a valid line. It is never in doubt.
-pub(super) fn chord(line: &Line, exact: Exact, format: Format) -> Verdict<InIntegers<'_>> {
+/// Takes the chord of a line. It is in doubt where the coordinates span too many places, and where one is no number.
+pub(super) fn chord(line: &Line, format: Format) -> Verdict<InIntegers<'_>> {
+    if !line.is_valid() {
+        return Verdict::Doubt;
+    }
+    let Some(exact) = Narrow::new(line) else { return Verdict::Doubt };
     let discriminant = exact.discriminant();
     if discriminant.is_negative() {
         return Verdict::Miss;
@@ -227,7 +161,7 @@ impl Crossings for InIntegers<'_> {
         } else if exact.exponent().abs() < MIDDLE {
             self.format.round(exact.scaled(0), ROOT_ERROR, compare)?
         } else {
-            self.format.round_at_the_ends(exact.to_f64(), compare)
+            return None;
         };
         Some((t, exact))
     }

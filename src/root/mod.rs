@@ -11,8 +11,8 @@
 //! | again | `f64` with a finer power, or by the closest approach with a bound of the case ([`bounded`]) | the same | `f32` close to the surface and from afar | 13, "on the surface" in `f32` |
 //! | [`surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface | 54, "on the surface" in `f64` |
 //! | [`pairs`] | offsets and powers in pairs of `f64`, the rest in `f64` | a bound of the case | the limb, and from afar in `f64` | 86, "at the limb from afar" in `f64` |
-//! | [`integers`] | integers of 64 bits, or any | exact | tangents, ties | 173 and 171, "exact tangent" |
-//! | [`surds`] | integers of many digits | exact | points next to a midpoint or to zero | 1,452, "tie of a tiny sphere" in `f64` |
+//! | [`integers`] | integers of 64 bits, products of 256 | exact | tangents, ties | 173 and 171, "exact tangent" |
+//! | [`surds`] | integers of many digits | exact | coordinates that span more places, points next to a midpoint or to zero | 1,452, "tie of a tiny sphere" in `f64` |
 //!
 //! How many in a hundred each decides (`cargo test --release --lib how_often -- --nocapture` has every family; "again" counts
 //! [`surface`], and a root compared with the midpoint of two floats counts as integers in `f32`):
@@ -64,7 +64,6 @@ use core::ops::Range;
 pub(crate) use crossing::Side;
 use crossing::{Answer, Found, Line, Question, Verdict};
 use format::Format;
-use integers::Exact;
 
 #[cfg(test)]
 mod any_exponent;
@@ -75,6 +74,12 @@ mod tests;
 #[inline(always)]
 fn nearest_carefully(line: &Line, format: Format, range: Range<f64>) -> Option<Found> {
     ask_carefully(line, format, &Question::Nearest(range))?.nearest()
+}
+
+/// Finds where the ray leaves, if t is finite and above 0 there. No plain step is asked: the two crossings may be very close.
+#[inline(always)]
+fn exit_carefully(line: &Line, format: Format) -> Option<Found> {
+    ask_carefully(line, format, &Question::Exit)?.nearest()
 }
 
 /// Finds both roots, ascending, where the plain steps leave a doubt.
@@ -115,12 +120,7 @@ fn carefully(line: &Line, format: Format, question: &Question) -> Option<Answer>
 #[cold]
 #[inline(never)]
 fn in_integers(line: &Line, format: Format, question: &Question) -> Option<Answer> {
-    if !line.is_valid() {
-        return None;
-    }
-    match integers::chord(line, Exact::new(line), format)
-        .and_then(|mut chord| question.ask(&mut chord))
-    {
+    match integers::chord(line, format).and_then(|mut chord| question.ask(&mut chord)) {
         Verdict::Miss => None,
         Verdict::Hit(answer) => Some(answer),
         Verdict::Doubt => in_any_integers(line, format, question),
@@ -130,8 +130,5 @@ fn in_integers(line: &Line, format: Format, question: &Question) -> Option<Answe
 /// Takes the last step.
 #[inline(always)]
 fn in_any_integers(line: &Line, format: Format, question: &Question) -> Option<Answer> {
-    match format {
-        Format::F32 => surds::answer::<{ surds::F32_DIGITS }>(line, format, question),
-        Format::F64 => surds::answer::<{ surds::F64_DIGITS }>(line, format, question),
-    }
+    surds::answer(line, format, question)
 }

@@ -21,11 +21,10 @@ use super::chord::Chord;
 use super::crossing::{Line, Side};
 use super::in_f64::is_safe;
 use super::pairs::offset;
-use super::surds::common_unit;
+use super::surds::{Unit, compute_chord};
 use crate::arithmetic::integer::{Integer, PLACES, Shifted};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::U;
-use crate::arithmetic::scaling::exponent;
 use crate::float::sqrt;
 use crate::sealed::{Internal, Operation};
 use crate::{Ray, Sphere, Vector};
@@ -62,7 +61,6 @@ fn compare_at<V: Vector>(t: V::Scalar, ray: &Ray<V>, spheres: [Option<Sphere<V>>
     compare_known(ray, (a, a_side), (b, b_side))
 }
 
-#[allow(dead_code, reason = "until the iterator over crossings asks it")]
 /// Compares two crossings of one ray, which both exist: `Less` where the first comes before the second, `Equal` only where their
 /// exact roots are equal. The result does not depend on `t`, but takes less time where that is close to both.
 pub(crate) fn compare_crossings<V: Vector>(
@@ -112,10 +110,13 @@ impl<'a, V: Vector> Known<'a, V> {
     fn side_at(&self, ray: &Ray<V>, t: V::Scalar) -> Option<Side> {
         if let Some(nearby) = &self.nearby {
             let (t, above): (f64, f64) = (t.into(), next_above::<V>(t).into());
-            match nearby.side_within(above - t, is_power_of_two(t)) {
-                Within::Neither => return None,
-                Within::One(side) => return Some(side),
-                Within::Doubt => {}
+            // Of the largest number, the next float tells no ulp.
+            if above < f64::INFINITY {
+                match nearby.side_within(above - t, is_power_of_two(t)) {
+                    Within::Neither => return None,
+                    Within::One(side) => return Some(side),
+                    Within::Doubt => {}
+                }
             }
         }
         let [near, far] = self.sphere.roots(ray)?;
@@ -290,26 +291,25 @@ impl CrossingPair {
     fn compare_in_integers(&self) -> Ordering {
         let [Line { origin, direction, center, radius }, other] = self.lines;
         let lengths = [origin, center, other.center, DVec3::new(radius, other.radius, 0.0)];
-        let (Some((length_unit, length_places)), Some((direction_unit, direction_places))) =
-            (unit_and_places(&lengths), unit_and_places(&[direction]))
+        let (Some(length), Some(direction)) = (Unit::common(&lengths), Unit::common(&[direction]))
         else {
             return Ordering::Equal;
         };
-        let size = Size { length_unit, direction_unit, places: length_places + direction_places };
+        let (units, places) = ([length, direction], length.places + direction.places);
         // Most scenes need little memory, and all of it is cleared.
-        if size.places <= ORDINARY_PLACES {
-            self.compare_within::<{ memory(ORDINARY_PLACES) }>(size)
-        } else if size.places <= F32_PLACES {
-            self.compare_within::<{ memory(F32_PLACES) }>(size)
+        if places <= ORDINARY_PLACES {
+            self.compare_within::<{ memory(ORDINARY_PLACES) }>(units)
+        } else if places <= F32_PLACES {
+            self.compare_within::<{ memory(F32_PLACES) }>(units)
         } else {
-            self.compare_within::<{ memory(F64_PLACES) }>(size)
+            self.compare_within::<{ memory(F64_PLACES) }>(units)
         }
     }
 
     /// The order, by integers in memory of `N` digits.
     #[inline(never)]
-    fn compare_within<const N: usize>(&self, size: Size) -> Ordering {
-        let Size { length_unit, direction_unit, places } = size;
+    fn compare_within<const N: usize>(&self, units: [Unit; 2]) -> Ordering {
+        let places = units[0].places + units[1].places;
         let mut memory = [0; N];
         let (squares, products) = memory.split_at_mut(digits_of_squares(places));
         let mut products = products.chunks_mut(digits_of_products(places)).map(Integer::new);
@@ -330,26 +330,12 @@ impl CrossingPair {
         for ((line, discriminant), is_first) in
             self.lines.iter().zip(&mut discriminants).zip([true, false])
         {
-            for number in [&mut a, &mut h, &mut power] {
-                number.clear();
-            }
-            for axis in 0..3 {
-                let coordinate = Shifted::new(line.direction[axis], direction_unit);
-                d.clear();
-                d.add_number(coordinate);
-                o.clear();
-                o.add_number(Shifted::new(line.center[axis], length_unit));
-                o.add_number(Shifted::new(-line.origin[axis], length_unit));
-                a.add_times(&d, coordinate);
-                h.add_times(&o, coordinate);
-                power.add(&o, &o);
-            }
-            let radius = Shifted::new(line.radius, length_unit);
-            o.clear();
-            o.add_number(radius);
-            power.add_times(&o, radius.negated());
-            discriminant.add(&h, &h);
-            discriminant.subtract(&a, &power);
+            compute_chord(
+                line,
+                units,
+                [&mut a, &mut h, discriminant],
+                [&mut o, &mut d, &mut power],
+            );
             difference.add_times(&h, if is_first { one } else { one.negated() });
         }
 
@@ -382,14 +368,6 @@ impl CrossingPair {
     }
 }
 
-/// The units of a pair's integers, and how many binary places those of lengths and of directions have together.
-#[derive(Clone, Copy)]
-struct Size {
-    length_unit: i32,
-    direction_unit: i32,
-    places: u32,
-}
-
 /// Of 61 places for lengths and as many for directions: more than scenes span.
 const ORDINARY_PLACES: u32 = 122;
 /// Between the smallest and the largest `f32` lie 277 places.
@@ -414,13 +392,6 @@ const fn digits_of_squares(places: u32) -> usize {
 /// The digits of all integers of a comparison.
 const fn memory(places: u32) -> usize {
     digits_of_squares(places) + 8 * digits_of_products(places)
-}
-
-/// The unit of the coordinates, and how many places the largest of them has; `None` where one is not finite.
-fn unit_and_places(vectors: &[DVec3]) -> Option<(i32, u32)> {
-    let unit = common_unit(vectors)?;
-    let largest = vectors.iter().map(|vector| vector.abs().max_element()).fold(0.0, f64::max);
-    Some((unit, (exponent(largest) + 1 - unit).max(0).unsigned_abs()))
 }
 
 /// How an integer compares with 0.

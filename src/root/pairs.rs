@@ -74,18 +74,18 @@ const SURE: f64 = 1024.0;
 /// And more than this part of P², 2⁻⁶⁴: then s > 2⁻³² P, and what h and the quotient err by, 12 u P, is below 2⁻¹⁷ s.
 const SURE_H: f64 = U / 2048.0;
 
-/// Of the discriminant from the closest approach, in a R², in a R |o| and in P².
+/// Of the discriminant from the closest approach, in a R², in a R |o| and in P². Proved in `tests/proofs/moved.g`.
 const MOVED_ERROR: f64 = 48.0 * V;
 const MOVED_REACH_ERROR: f64 = 320.0 * U * V;
 const MOVED_ALONG_ERROR: f64 = 1024.0 * U * V;
 
-/// Of w at the root, in r, and in √m.
+/// Of w at the root, in r, and in √m. Proved in `tests/proofs/pairs.g`.
 const OFFSET_ERROR: f64 = 4.0 * V;
 const OFFSET_REACH_ERROR: f64 = 32.0 * U * V;
-/// Of the root, in r² / s, and in r √m / s.
+/// Of the root, in r² / s, and in r √m / s. Proved in `tests/proofs/pairs.g`.
 const RESIDUAL_ERROR: f64 = 24.0 * V;
 const RESIDUAL_REACH_ERROR: f64 = 32.0 * U * V;
-/// Of the slope, in r |d|, and of the operations of the correction, in itself.
+/// Of the slope, in r |d|, and of the operations of the correction, in itself. Proved in `tests/proofs/pairs.g`.
 const SLOPE_ERROR: f64 = 5.0 * U;
 const CORRECTION_ERROR: f64 = 12.0 * U;
 /// Of the sum that the root is, in itself.
@@ -219,10 +219,10 @@ impl InPairs<'_> {
     /// s² > 192 v a r² + 1280 u v a r √m, so that what the power errs by makes less than s / 8 a, and the correction, at most s / 64 a,
     /// brings half of that at most; of a plain discriminant, both are less; and 2 v |t| is next to nothing beside s / a > 2⁻⁷² |t|.
     #[inline(always)]
-    fn compare(&self, side: Side, root: &Corrected, number: Midpoint) -> Ordering {
+    fn compare(&self, side: Side, root: &Corrected, number: Midpoint) -> Option<Ordering> {
         let above = root.above(number);
         if above.abs() > 2.0 * (root.error + PAIR_ERROR * root.t.hi.abs()) {
-            return if above > 0.0 { Ordering::Greater } else { Ordering::Less };
+            return above.partial_cmp(&0.0);
         }
         let exponent = number.exponent + self.scaled.exponent();
         let number = Midpoint { exponent, ..number };
@@ -230,8 +230,8 @@ impl InPairs<'_> {
         match (certain, side) {
             (None, _) => integers::compare_root(self.line, side, number),
             // Nearer to this root than to the other, outside is before the near one and behind the far one.
-            (Some(quadratic), Side::Near) => quadratic,
-            (Some(quadratic), Side::Far) => quadratic.reverse(),
+            (Some(quadratic), Side::Near) => Some(quadratic),
+            (Some(quadratic), Side::Far) => Some(quadratic.reverse()),
         }
     }
 }

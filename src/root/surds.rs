@@ -13,7 +13,7 @@
 //! certain whether a number is positive, negative or zero, and its size is known within [`ERROR`] of itself. [`Surd::round`]
 //! needs no more.
 //!
-//! The integers have as many digits as it takes: [`digits`] of them. Lengths are multiples of one power of two, and directions of
+//! The integers have as many digits as it takes, by [`digits`]. Lengths are multiples of one power of two, and directions of
 //! another.
 
 use glam::DVec3;
@@ -30,21 +30,28 @@ use crate::arithmetic::scaling::{integer_and_exponent, scale};
 #[cfg(test)]
 mod tests;
 
-/// The digits of an integer for lines in each precision.
-pub(super) const F32_DIGITS: usize = digits(-149, 128);
-pub(super) const F64_DIGITS: usize = digits(-1074, 1024);
+/// The digits of an integer for any line in each precision. The place may be as fine as the midpoint next to zero, half of the
+/// smallest number, where the unit of A is at most 1.
+const F32_DIGITS: usize = digits([277; 2], 150);
+const F64_DIGITS: usize = digits([2098; 2], 1075);
+/// And for lines whose lengths span up to 600 places and directions 100: all memory is cleared, which takes its time.
+const FEW_DIGITS: usize = digits_of([600, 100]);
 
-/// The digits of the largest integer for lines of numbers that are multiples of 2^`least` and below 2^`most`: no sum has more.
+/// The digits of the largest integer for lines whose lengths and directions have so many binary places, p and q: no sum has more.
 ///
-/// With p binary places between these two, d is below 2ᵖ and o below twice that, in each coordinate. The widest number is that of
-/// the normal. Its A, h d - a o, is below 2³ᵖ⁺⁵, as is every sum on the way to it. B √D is less, and where a multiple of a place is
-/// subtracted, less than twice as much is left. The place may be as fine as the midpoint next to zero, half of 2^`least`, where the
-/// unit of A is at most 1. The norm has twice as many places. A sum has one digit more than the product that is added.
-const fn digits(least: i32, most: i32) -> usize {
-    let places = (most - least).unsigned_abs();
-    let finer = (1 - least).unsigned_abs();
-    let rational = (3 * places + 6 + finer).div_ceil(PLACES);
+/// d is below 2ᵠ and o below 2ᵖ⁺¹, in each coordinate. The widest number is that of the normal. Its A, h d - a o, is below 2ᵖ⁺²ᵠ⁺⁵, as
+/// is every sum on the way to it. B √D is less, and where a multiple of a place is subtracted, less than twice as much is left. The
+/// place may be `finer` by so many binary places than the unit of A. The norm has twice as many places. A sum has one digit more
+/// than the product that is added.
+const fn digits([lengths, directions]: [u32; 2], finer: u32) -> usize {
+    let rational = (lengths + 2 * directions + 6 + finer).div_ceil(PLACES);
     (2 * rational + 1) as usize
+}
+
+/// The same where the unit of A may be any. A number that is not zero is at least 1 / (2 |A| C), where the norm is 1, and so above
+/// 2⁻ᵖ⁻⁴ᵠ⁻⁹; a midpoint is 55 places finer at most.
+const fn digits_of([lengths, directions]: [u32; 2]) -> usize {
+    digits([lengths, directions], lengths + 4 * directions + 64)
 }
 
 /// How far off what is left of a number may be, as a part of itself.
@@ -185,59 +192,78 @@ struct InSurds<'m> {
     scratch: Scratch<'m>,
 }
 
-/// The exponent of the largest power of two that all coordinates are multiples of, any if these are zeros; `None` where one is
-/// not finite.
-#[cfg_attr(not(target_pointer_width = "64"), inline(never))]
-pub(super) fn common_unit(vectors: &[DVec3]) -> Option<i32> {
-    /// That of the last place of the largest number.
-    const LARGEST: i32 = 971;
-    let mut unit = LARGEST;
-    for vector in vectors {
-        for coordinate in vector.to_array() {
-            let (integer, exponent) = integer_and_exponent(coordinate);
-            if exponent > LARGEST {
-                return None;
-            }
-            if integer != 0 {
-                #[expect(clippy::cast_possible_wrap, reason = "at most 52")]
-                let zeros = integer.trailing_zeros() as i32;
-                unit = unit.min(exponent + zeros);
-            }
-        }
-    }
-    Some(unit)
+/// The unit of integers, 2^`exponent`, and how many binary places the largest of them has.
+#[derive(Clone, Copy)]
+pub(super) struct Unit {
+    pub(super) exponent: i32,
+    pub(super) places: u32,
 }
 
-impl InSurds<'_> {
-    /// Computes the chord of the line; `None` where that is none or where it misses.
-    #[inline(never)]
-    fn compute(&mut self) -> Option<()> {
-        let &Line { origin, direction, center, radius } = self.line;
-        let length_unit = common_unit(&[origin, center, DVec3::splat(radius)])?;
-        let direction_unit = common_unit(&[direction])?;
-        (self.length_unit, self.direction_unit) = (length_unit, direction_unit);
-        let Self { a, h, discriminant, .. } = self;
-        let Scratch { rational: o, square: d, norm: power } = &mut self.scratch;
-        for axis in 0..3 {
-            let coordinate = Shifted::new(direction[axis], direction_unit);
-            d.clear();
-            d.add_number(coordinate);
-            o.clear();
-            o.add_number(Shifted::new(center[axis], length_unit));
-            o.add_number(Shifted::new(-origin[axis], length_unit));
-            a.add_times(d, coordinate);
-            h.add_times(o, coordinate);
-            power.add(o, o);
+impl Unit {
+    /// The largest power of two that all coordinates are multiples of, any if these are zeros; `None` where one is not finite.
+    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    pub(super) fn common(vectors: &[DVec3]) -> Option<Self> {
+        /// The exponent of the last place of the largest number.
+        const LARGEST: i32 = 971;
+        let (mut unit, mut top) = (LARGEST, LARGEST);
+        let mut is_first = true;
+        for vector in vectors {
+            for coordinate in vector.to_array() {
+                let (integer, exponent) = integer_and_exponent(coordinate);
+                if exponent > LARGEST {
+                    return None;
+                }
+                if integer != 0 {
+                    #[expect(clippy::cast_possible_wrap, reason = "at most 64")]
+                    let [zeros, bits] =
+                        [integer.trailing_zeros(), u64::BITS - integer.leading_zeros()]
+                            .map(|places| places as i32);
+                    unit = unit.min(exponent + zeros);
+                    top = if is_first { exponent + bits } else { top.max(exponent + bits) };
+                    is_first = false;
+                }
+            }
         }
-        let radius = Shifted::new(radius, length_unit);
-        o.clear();
-        o.add_number(radius);
-        power.add_times(o, radius.negated());
-        discriminant.add(h, h);
-        discriminant.subtract(a, power);
-        let is_chord = radius.integer >= 0 && !a.is_zero() && !discriminant.is_negative();
-        is_chord.then_some(())
+        Some(Self { exponent: unit, places: (top - unit).max(0).unsigned_abs() })
     }
+
+    /// Those of the lengths and of the direction of a line.
+    pub(super) fn of_line(line: &Line) -> Option<[Self; 2]> {
+        let Line { origin, direction, center, radius } = *line;
+        let lengths = Self::common(&[origin, center, DVec3::splat(radius)])?;
+        Some([lengths, Self::common(&[direction])?])
+    }
+}
+
+/// Computes a, h and the discriminant of a line in these units of lengths and of directions, with memory for o, d and the power.
+#[inline(never)]
+pub(super) fn compute_chord(
+    line: &Line,
+    [length, direction]: [Unit; 2],
+    [a, h, discriminant]: [&mut Integer; 3],
+    [o, d, power]: [&mut Integer; 3],
+) {
+    for number in [&mut *a, h, discriminant] {
+        number.clear();
+    }
+    power.clear();
+    for axis in 0..3 {
+        let coordinate = Shifted::new(line.direction[axis], direction.exponent);
+        d.clear();
+        d.add_number(coordinate);
+        o.clear();
+        o.add_number(Shifted::new(line.center[axis], length.exponent));
+        o.add_number(Shifted::new(-line.origin[axis], length.exponent));
+        a.add_times(d, coordinate);
+        h.add_times(o, coordinate);
+        power.add(o, o);
+    }
+    let radius = Shifted::new(line.radius, length.exponent);
+    o.clear();
+    o.add_number(radius);
+    power.add_times(o, radius.negated());
+    discriminant.add(h, h);
+    discriminant.subtract(a, power);
 }
 
 impl Crossings for InSurds<'_> {
@@ -306,31 +332,48 @@ impl Crossings for InSurds<'_> {
 /// Answers a question for any line.
 #[cold]
 #[inline(never)]
-pub(super) fn answer<const N: usize>(
+pub(super) fn answer(line: &Line, format: Format, question: &Question) -> Option<Answer> {
+    if !line.is_valid() {
+        return None;
+    }
+    let units = Unit::of_line(line)?;
+    let few = digits_of(units.map(|unit| unit.places)) <= FEW_DIGITS;
+    match format {
+        Format::F32 => answer_within::<F32_DIGITS>(line, units, format, question),
+        Format::F64 if few => answer_within::<FEW_DIGITS>(line, units, format, question),
+        Format::F64 => answer_within::<F64_DIGITS>(line, units, format, question),
+    }
+}
+
+/// The same with integers of so many digits.
+#[inline(never)]
+fn answer_within<const N: usize>(
     line: &Line,
+    units: [Unit; 2],
     format: Format,
     question: &Question,
 ) -> Option<Answer> {
     let mut memory = [[0; N]; 7];
-    let [a, h, discriminant, rational, x, y, z] = &mut memory;
-    let mut chord = InSurds {
-        line,
-        format,
-        length_unit: 0,
-        direction_unit: 0,
-        a: Integer::new(a),
-        h: Integer::new(h),
-        discriminant: Integer::new(discriminant),
-        rational: Integer::new(rational),
-        scratch: Scratch {
-            rational: Integer::new(x),
-            square: Integer::new(y),
-            norm: Integer::new(z),
-        },
-    };
-    chord.compute()?;
-    match question.ask(&mut chord) {
-        Verdict::Hit(answer) => Some(answer),
-        Verdict::Miss | Verdict::Doubt => None,
+    let [a, h, discriminant, rational, x, y, z] =
+        memory.each_mut().map(|digits| Integer::new(digits));
+    let scratch = Scratch { rational: x, square: y, norm: z };
+    let [length_unit, direction_unit] = units.map(|unit| unit.exponent);
+    InSurds { line, format, length_unit, direction_unit, a, h, discriminant, rational, scratch }
+        .answer(units, question)
+}
+
+impl InSurds<'_> {
+    #[inline(never)]
+    fn answer(&mut self, units: [Unit; 2], question: &Question) -> Option<Answer> {
+        let Self { line, a, h, discriminant, .. } = self;
+        let Scratch { rational: o, square: d, norm: power } = &mut self.scratch;
+        compute_chord(line, units, [a, h, discriminant], [o, d, power]);
+        if discriminant.is_negative() {
+            return None;
+        }
+        match question.ask(self) {
+            Verdict::Hit(answer) => Some(answer),
+            Verdict::Miss | Verdict::Doubt => None,
+        }
     }
 }

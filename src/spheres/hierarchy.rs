@@ -3,6 +3,7 @@
 pub(super) mod bounds;
 mod boxes;
 mod build;
+mod hits;
 mod leaf;
 mod refit;
 mod region;
@@ -20,6 +21,7 @@ use bounds::Bounds;
 use boxes::Boxes;
 use build::is_tree;
 use glam::Vec3;
+pub(super) use hits::Hits;
 use leaf::Leaf;
 use region::Region;
 
@@ -208,6 +210,22 @@ impl<V: Vector> SphereBvh<V> {
         match &self.0 {
             Shape::Scan(spheres) => spheres.nearest(ray, range),
             Shape::Tree(tree) => tree.nearest(Lanes::best(), ray, range),
+        }
+    }
+
+    /// [`hits`](Self::hits) with that set of instructions.
+    #[inline(always)]
+    pub(super) fn hits_in_lanes(
+        &self,
+        lanes: Lanes,
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> super::hits::Hits<'_, V> {
+        match &self.0 {
+            Shape::Scan(spheres) => {
+                super::hits::Hits::Scan(spheres.hits_in_lanes(lanes, ray, range))
+            }
+            Shape::Tree(tree) => super::hits::Hits::Tree(Hits::new(tree, lanes, ray, range)),
         }
     }
 

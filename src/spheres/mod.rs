@@ -1,11 +1,14 @@
 //! Collections of spheres. Each has a cheap test over many lanes, which never drops a sphere that is hit, and calls the exact
 //! routine for the few that pass. [`scan`] tests all, [`hierarchy`] those in the boxes along the ray.
 
+mod crossings;
 mod filter;
 mod hierarchy;
+mod hits;
 mod lanes;
 mod local;
 mod middle;
+mod queue;
 mod scan;
 #[cfg(feature = "serde")]
 mod serialize;

@@ -277,7 +277,7 @@ impl<V: Vector> Spheres<V> {
     #[inline]
     pub fn nearest(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<(usize, Hit<V>)> {
         if self.len() <= FEW {
-            return self.nearest_of(self.few_near(ray), ray, range);
+            return self.nearest_of(self.few_near(ray, range.start), ray, range);
         }
         self.nearest_in_lanes(Lanes::best(), ray, range)
     }
@@ -289,7 +289,7 @@ impl<V: Vector> Spheres<V> {
         ray: &Ray<V>,
         range: Range<V::Scalar>,
     ) -> Option<(usize, Hit<V>)> {
-        let Some(segment) = self.segment(ray, range.end) else {
+        let Some(segment) = self.segment(ray, &range) else {
             return nearest(&self.spheres, ray, range);
         };
         if let Some(near) = self.word_near(lanes, &segment, range.end) {
@@ -306,7 +306,7 @@ impl<V: Vector> Spheres<V> {
         ray: &Ray<V>,
         range: Range<V::Scalar>,
     ) -> bool {
-        let Some(segment) = self.segment(ray, range.end) else {
+        let Some(segment) = self.segment(ray, &range) else {
             return self.spheres.occludes(ray, range);
         };
         if let Some(near) = self.word_near(lanes, &segment, range.end) {
@@ -319,25 +319,27 @@ impl<V: Vector> Spheres<V> {
 
     /// What the filter knows of a ray, if it can compute with that.
     #[inline(always)]
-    fn segment(&self, ray: &Ray<V>, end: V::Scalar) -> Option<Segment> {
+    fn segment(&self, ray: &Ray<V>, range: &Range<V::Scalar>) -> Option<Segment> {
         let (origin, direction) = self.relative(ray);
         if Segment::allows(origin, direction, self.middle.near_squared) {
-            Some(Segment::new(origin, direction, MARGIN))
+            Some(Segment::new::<V>(origin, direction, range.start, MARGIN))
         } else {
-            self.segment_from_afar(ray, end)
+            // Not returned as it is: with one place for both, what was just written would be copied, and waited for.
+            Some(self.segment_from_afar(ray, range)?)
         }
     }
 
     /// The same of one that begins far away.
     #[cold]
     #[inline(never)]
-    fn segment_from_afar(&self, ray: &Ray<V>, end: V::Scalar) -> Option<Segment> {
+    fn segment_from_afar(&self, ray: &Ray<V>, range: &Range<V::Scalar>) -> Option<Segment> {
         let (origin, direction) = self.relative(ray);
         Segment::allows(origin, direction, LARGEST * LARGEST).then(|| {
             let origin = ray.origin.to_f64() - self.middle.center.to_f64();
             let extent = self.middle.extent.into();
-            let moved = Approach::new(origin, ray.direction.to_f64(), extent).moved(end.into());
-            Segment::moved(moved, direction, MARGIN)
+            let moved =
+                Approach::new(origin, ray.direction.to_f64(), extent).moved(range.end.into());
+            Segment::moved::<V>(moved, direction, range.start, MARGIN)
         })
     }
 
@@ -347,13 +349,35 @@ impl<V: Vector> Spheres<V> {
         (narrow(ray.origin - self.middle.center), narrow(ray.direction))
     }
 
-    /// A bit for each of the first [`FEW`] spheres that the ray may meet, and perhaps for others.
+    /// Calls `ask` for the index of every sphere that the ray may meet in the range, and perhaps for others.
+    pub(super) fn for_each_near(
+        &self,
+        lanes: Lanes,
+        ray: &Ray<V>,
+        range: &Range<V::Scalar>,
+        mut ask: impl FnMut(usize),
+    ) {
+        if self.len() <= FEW {
+            Bits(self.few_near(ray, range.start)).for_each(ask);
+        } else if let Some(segment) = self.segment(ray, range) {
+            let mut near = Near::new(self, lanes, &segment);
+            let end = segment.end(range.end);
+            while let Some((index, _)) = near.next(end) {
+                ask(index);
+            }
+        } else if ray.origin.to_f64().is_finite() && ray.direction.to_f64().is_finite() {
+            (0..self.len()).for_each(ask);
+        }
+    }
+
+    /// A bit for each of the first [`FEW`] spheres that the ray may meet from `start` on, and perhaps for others.
     #[inline]
-    fn few_near(&self, ray: &Ray<V>) -> u64 {
+    fn few_near(&self, ray: &Ray<V>, start: V::Scalar) -> u64 {
         let (origin, direction) = self.relative(ray);
         match self.blocks.first() {
             Some(block) if Segment::allows(origin, direction, LARGEST * LARGEST) => {
-                block.few_near_half_line(&Segment::new(origin, direction, MARGIN)).into()
+                let segment = Segment::new::<V>(origin, direction, start, MARGIN);
+                block.few_near_half_line(&segment).into()
             }
             Some(_) => (1 << FEW) - 1,
             None => 0,
@@ -512,7 +536,7 @@ impl<V: Vector> Hittable<V> for Spheres<V> {
     #[inline]
     fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         if self.len() <= FEW {
-            return self.any_of(self.few_near(ray), ray, range);
+            return self.any_of(self.few_near(ray, range.start), ray, range);
         }
         self.occludes_in_lanes(Lanes::best(), ray, range)
     }

@@ -1,5 +1,5 @@
-//! Cameras from glam's own view and projection matrices against unprojection by exact arithmetic, also far from the world's origin;
-//! and the way back.
+//! Cameras from glam's own view and projection matrices against unprojection by exact arithmetic, also far from the world's
+//! origin; and the way back.
 
 use eyeray::{Camera, Frame, Scalar, ViewRect};
 use glam::{DMat4, DVec2, DVec3, Vec3, dvec2};
@@ -14,23 +14,24 @@ const H: f64 = f64::EPSILON / 2.0;
 
 /// What the rows of a rotation that are not orthonormal add to a direction, in ε of its length.
 ///
-/// With ε the most by which a product of two rows is off from 0, or of one with itself from 1: W is the third row made as long as 1,
-/// off by ε/2. V is off by as much, and by ε along W: √5/2 ε. U is off by ε/2, and by ε along V and along W: 3/2 ε. Together
+/// With ε the most by which a product of two rows is off from 0, or of one with itself from 1: W is the third row made as long as
+/// 1, off by ε/2. V is off by as much, and by ε along W: √5/2 ε. U is off by ε/2, and by ε along V and along W: 3/2 ε. Together
 /// √(1/4 + 5/4 + 9/4) < 1.94; what is left is for ε² and more.
 const OF_ROTATION: f64 = 2.0;
 
-/// What ε of glam's view matrices is below, in ulp of 1, where the sine of the angle between up and the direction is at least 0.1.
+/// What ε of glam's view matrices is below, in ulp of 1, where the sine of the angle between up and the direction is at least
+/// 0.1.
 ///
-/// Each coordinate of their cross product is rounded by at most 1 ulp of 1, all three by √3; made as long as 1, they are off by ten
-/// times that. Nothing else is longer than 2.
+/// Each coordinate of their cross product is rounded by at most 1 ulp of 1, all three by √3; made as long as 1, they are off by
+/// ten times that. Nothing else is longer than 2.
 const GLAM: f64 = 32.0;
 
-/// What the errors of the sides, each 2 H of itself, add to (u, v), in H of the largest side: in the image, or as far around it as it
-/// is wide, one side counts at most twice and the other once, and both u and v are √2 times as much as one.
+/// What the errors of the sides, each 2 H of itself, add to (u, v), in H of the largest side: in the image, or as far around it
+/// as it is wide, one side counts at most twice and the other once, and both u and v are √2 times as much as one.
 const OF_VIEW: f64 = 2.0 * 3.0 * 1.42;
 
-/// As in `accuracy_of_pixels`: a direction in f64, in ulp of its length, an origin, in H (|e| + |u| + |v|), and what is rounded in each
-/// of three coordinates, in ulp of the largest.
+/// As in `accuracy_of_pixels`: a direction in f64, in ulp of its length, an origin, in H (|e| + |u| + |v|), and what is rounded
+/// in each of three coordinates, in ulp of the largest.
 const DIRECTION: f64 = 7.0;
 const ORIGIN: f64 = 8.0;
 const ROUNDED: f64 = 0.87;
@@ -107,8 +108,8 @@ impl View {
     }
 }
 
-/// The x or y of view space at which the image has `ndc`, where z has that value: of the row of x or y of a projection matrix, and of
-/// its last row.
+/// The x or y of view space at which the image has `ndc`, where z has that value: of the row of x or y of a projection matrix,
+/// and of its last row.
 fn on_axis(matrix: DMat4, axis: usize, ndc: &Dyadic, z: f64) -> Dyadic {
     let row = |row: usize| matrix.row(row).to_array().map(Dyadic::exactly);
     let ([x, last], z) = ([row(axis), row(3)], Dyadic::exactly(z));
@@ -281,13 +282,14 @@ fn check_way_back<V: Matrices>(
 
 /// What a camera loses on the way through its own matrices, in roundings u of `V`.
 ///
-/// Each element of the rotation is rounded by u/2, a row by √3/2 u, all by 3/2 u. So ε is √3 u, and the basis that is made of the rows
-/// is within 1.94 √3 u of them and 4.9 u of the first.
+/// Each element of the rotation is rounded by u/2, a row by √3/2 u, all by 3/2 u. So ε is √3 u, and the basis that is made of the
+/// rows is within 1.94 √3 u of them and 4.9 u of the first.
 const BASIS_AGAIN: f64 = 5.0;
 /// The eye is off by 3/2 u |e|, because of the rotation, by u |e|, because of the translation, and is rounded, by u |e|.
 const EYE_AGAIN: f64 = 4.0;
-/// A side, in u (|start| + |end|): glam rounds start and end (once more in the near plane), their sum and difference, the reciprocal of
-/// that, and two products. What is left of their sum is off by 5 u, of their difference by 5 u of itself, each half as much in a side.
+/// A side, in u (|start| + |end|): glam rounds start and end (once more in the near plane), their sum and difference, the
+/// reciprocal of that, and two products. What is left of their sum is off by 5 u, of their difference by 5 u of itself, each half
+/// as much in a side.
 const SIDE_AGAIN: f64 = 6.0;
 
 fn check_again<V: Matrices>(case: &Case) -> Result<(), TestCaseError> {

@@ -100,6 +100,33 @@ fn the_leading_digits_are_within_3_u() {
 }
 
 #[test]
+fn the_leading_106_bits_are_kept() {
+    let mut random = Random::new(3);
+    for _ in 0..5000 {
+        let mut memory = [[0; 40]; 2];
+        let [a, sum] = &mut memory;
+        let [mut a, mut sum] = [a, sum].map(|digits| Integer::new(digits));
+        a.add_number(factor(&mut random));
+        a.add_number(factor(&mut random));
+        sum.add_times(&a, factor(&mut random));
+        let unit = random.integer(-5000..=5000);
+        let (wide, exact) = (sum.to_wide(unit), number(&sum).scaled(unit.into()));
+        assert_eq!((wide.is_zero(), wide.is_negative()), (exact.is_zero(), exact.is_negative()));
+        if exact.is_zero() {
+            continue;
+        }
+        assert_eq!(i64::from(wide.exponent()), exact.magnitude());
+        let pair = wide.scaled(-wide.exponent());
+        let found =
+            &(&Dyadic::exactly(pair.hi) + &Dyadic::exactly(pair.lo)).scaled(wide.exponent().into());
+        let error = if exact.is_negative() { found - &exact } else { &exact - found };
+        assert!(!error.is_negative(), "{exact:?}");
+        assert!(error < Dyadic::new(1, exact.magnitude() - 105), "{exact:?}");
+    }
+    assert!(Integer::new(&mut []).to_wide(3).is_zero());
+}
+
+#[test]
 fn numbers_are_integers_of_their_units() {
     for (number, unit, integer, places) in [
         (3.0, 0, 3, 0),

@@ -2,7 +2,6 @@
 
 use core::cmp::Ordering;
 
-use crate::arithmetic::exact::Term;
 use crate::arithmetic::integer::Shifted;
 use crate::arithmetic::product::{Product, sign_of_sum};
 use crate::arithmetic::scaling::integer_and_exponent;
@@ -78,18 +77,18 @@ impl Narrow {
 
     /// d·d.
     pub(super) fn a(&self) -> Wide {
-        Term::new(dot(self.d, self.d), 2 * self.direction_exponent).to_wide()
+        Wide::from_signed(dot(self.d, self.d), 2 * self.direction_exponent)
     }
 
     /// d·o.
     pub(super) fn h(&self) -> Wide {
-        Term::new(dot(self.o, self.d), self.length_exponent + self.direction_exponent).to_wide()
+        Wide::from_signed(dot(self.o, self.d), self.length_exponent + self.direction_exponent)
     }
 
     /// o·o - r².
     pub(super) fn power(&self) -> Wide {
         let power = dot(self.o, self.o) - product(self.radius, self.radius);
-        Term::new(power, 2 * self.length_exponent).to_wide()
+        Wide::from_signed(power, 2 * self.length_exponent)
     }
 
     fn integer_moment(&self) -> [i128; 3] {
@@ -100,7 +99,7 @@ impl Narrow {
     /// o × d.
     pub(super) fn moment(&self) -> [Wide; 3] {
         let unit = self.length_exponent + self.direction_exponent;
-        self.integer_moment().map(|coordinate| Term::new(coordinate, unit).to_wide())
+        self.integer_moment().map(|coordinate| Wide::from_signed(coordinate, unit))
     }
 
     /// r² (d·d) - |o × d|².

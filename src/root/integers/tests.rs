@@ -7,12 +7,6 @@ fn number(wide: Wide) -> Dyadic {
     exactly(wide.scaled(-wide.exponent())).scaled(wide.exponent().into())
 }
 
-/// Both ways to the same integers, the narrow one where it is one.
-fn ways(line: &Line) -> Vec<Exact> {
-    let narrow = Narrow::new(line).map(Exact::Narrow);
-    narrow.into_iter().chain([Exact::Wide(Sums::new(line))]).collect()
-}
-
 /// Lines of every kind: integers, floats of a few exponents, of many, and exact tangents.
 fn random_numbers(random: &mut Random) -> [f64; 10] {
     let mut numbers = match random.below(8) {
@@ -59,26 +53,23 @@ fn random_numbers(random: &mut Random) -> [f64; 10] {
 #[test]
 fn chords_in_integers_are_exact_to_96_bits() {
     let mut random = Random::new(1);
-    let (mut narrow, count) = (0, 2000);
+    let (mut narrow, count) = (0, 4000);
     for _ in 0..count {
         let numbers = random_numbers(&mut random);
         let exact = ExactChord::new(numbers);
-        let line = line(numbers);
-        for way in ways(&line) {
-            narrow += u32::from(!way.is_wide());
-            for (found, expected) in [
-                (way.a(), &exact.a),
-                (way.h(), &exact.h),
-                (way.power(), &exact.power),
-                (way.discriminant(), &exact.discriminant),
-            ] {
-                assert_eq!(found.is_zero(), expected.is_zero(), "{numbers:?}");
-                assert_eq!(found.is_negative(), expected.is_negative(), "{numbers:?}");
-                let bound = expected.clone().abs().scaled(-96);
-                assert!(part_of_bound(&number(found), expected, &bound) <= 1.0, "{numbers:?}");
-            }
+        let Some(found) = Narrow::new(&line(numbers)) else { continue };
+        narrow += 1;
+        for (found, expected) in [
+            (found.a(), &exact.a),
+            (found.h(), &exact.h),
+            (found.power(), &exact.power),
+            (found.discriminant(), &exact.discriminant),
+        ] {
+            assert_eq!(found.is_zero(), expected.is_zero(), "{numbers:?}");
+            assert_eq!(found.is_negative(), expected.is_negative(), "{numbers:?}");
+            let bound = expected.clone().abs().scaled(-96);
+            assert!(part_of_bound(&number(found), expected, &bound) <= 1.0, "{numbers:?}");
         }
-        assert_eq!(Exact::new(&line).is_wide(), Narrow::new(&line).is_none());
     }
     assert!((count / 4..count).contains(&narrow), "{narrow} of {count} are narrow");
 }
@@ -105,7 +96,7 @@ fn compared(exact: &ExactChord, side: Side, number: &Dyadic) -> Ordering {
 fn roots_are_compared_exactly_with_midpoints_at_and_beside_them() {
     let mut random = Random::new(2);
     let (mut equal, mut narrow) = (0, 0);
-    for _ in 0..1500 {
+    for _ in 0..3000 {
         let numbers = random_numbers(&mut random);
         let exact = ExactChord::new(numbers);
         let Some(roots) = exact.roots() else { continue };
@@ -130,13 +121,10 @@ fn roots_are_compared_exactly_with_midpoints_at_and_beside_them() {
             for midpoint in midpoints {
                 let number = Dyadic::new(midpoint.integer, midpoint.exponent.into());
                 let expected = compared(&exact, side, &number);
+                let Some(found) = compare_root(&line, side, midpoint) else { continue };
+                assert_eq!(found, expected, "{side:?} {midpoint:?} {numbers:?}");
                 equal += u32::from(expected.is_eq());
-                for way in ways(&line) {
-                    narrow += u32::from(!way.is_wide());
-                    let found = way.compare_root(&line, side, midpoint);
-                    assert_eq!(found, expected, "{side:?} {midpoint:?} {numbers:?}");
-                }
-                assert_eq!(compare_root(&line, side, midpoint), expected, "{numbers:?}");
+                narrow += 1;
             }
         }
     }
@@ -146,29 +134,33 @@ fn roots_are_compared_exactly_with_midpoints_at_and_beside_them() {
 
 #[test]
 fn narrow_numbers_answer_wherever_they_have_room() {
-    // Where they have none, they say so, and where they answer, it is what sums say.
+    // Where they have none, they say so.
     let mut random = Random::new(3);
     let (mut answers, mut aheads, mut none) = (0, 0, 0);
     for _ in 0..3000 {
         let numbers = random_numbers(&mut random);
         let line = line(numbers);
         let Some(narrow) = Narrow::new(&line) else { continue };
-        let sums = Sums::new(&line);
+        let exact = ExactChord::new(numbers);
         let digits = random.below(54);
         let integer = i64::try_from(random.bits() >> 10 >> digits).unwrap();
-        let unit = ExactChord::new(numbers).h.divided_by(&ExactChord::new(numbers).a, 60);
+        let unit = exact.h.divided_by(&exact.a, 60);
         let magnitude = if unit.is_zero() { 0 } else { unit.magnitude() };
         let exponent = i32::try_from(magnitude).unwrap() + random.integer(-130..=70);
         let midpoint =
             Midpoint { integer: if digits % 2 == 0 { integer } else { -integer }, exponent };
+        let m = Dyadic::new(midpoint.integer, midpoint.exponent.into());
+        let am = &exact.a * &m;
         if let Some(quadratic) = narrow.quadratic_at(midpoint) {
-            assert_eq!(quadratic, sums.quadratic_at(midpoint), "{midpoint:?} {numbers:?}");
+            let slope = &am - &(&exact.h + &exact.h);
+            let expected = (&(&slope * &m) + &exact.power).sign();
+            assert_eq!(quadratic, expected, "{midpoint:?} {numbers:?}");
             answers += 1;
         } else {
             none += 1;
         }
         if let Some(ahead) = narrow.ahead_of(midpoint) {
-            assert_eq!(ahead, sums.ahead_of(midpoint), "{midpoint:?} {numbers:?}");
+            assert_eq!(ahead, exact.h.cmp(&am), "{midpoint:?} {numbers:?}");
             aheads += 1;
         }
     }
@@ -218,81 +210,83 @@ fn roots_are_compared_exactly_with_numbers_on_and_beside_them() {
         let (integer, exponent) = crate::arithmetic::scaling::integer_and_exponent(m);
         let integer = i64::try_from(integer).unwrap();
         let integer = if m < 0.0 { -integer } else { integer };
-        let line = line(numbers);
-        let found = ways(&line)
-            .iter()
-            .map(|way| way.compare_root(&line, side, Midpoint { integer, exponent }))
-            .collect::<Vec<_>>();
-        assert!(found.windows(2).all(|pair| pair[0] == pair[1]));
-        found[0]
+        compare_root(&line(numbers), side, Midpoint { integer, exponent })
     };
-    let tiny = 1e-300;
+    let tiny = 2_f64.powi(-52);
     for (side, root) in [(Side::Near, 3.0), (Side::Far, 7.0)] {
-        assert_eq!(compare(2.0, 0.0, side, root), Ordering::Equal);
+        assert_eq!(compare(2.0, 0.0, side, root), Some(Ordering::Equal));
         for m in [-1.0, 2.9, 3.1, 5.0, 6.9, 7.1] {
-            assert_eq!(compare(2.0, 0.0, side, m), root.partial_cmp(&m).unwrap(), "{root} and {m}");
+            assert_eq!(compare(2.0, 0.0, side, m), root.partial_cmp(&m), "{root} and {m}");
         }
         // A little beside the axis, the chord is a little shorter.
         let inwards = if root < 5.0 { Ordering::Greater } else { Ordering::Less };
-        assert_eq!(compare(2.0, tiny, side, root), inwards);
-        assert_eq!(compare(2.0, 2.0, side, 5.0), Ordering::Equal);
-        assert_eq!(compare(2.0, 2.0, side, 5.0 + f64::EPSILON * 4.0), Ordering::Less);
+        assert_eq!(compare(2.0, tiny, side, root), Some(inwards));
+        assert_eq!(compare(2.0, 2.0, side, 5.0), Some(Ordering::Equal));
+        assert_eq!(compare(2.0, 2.0, side, 5.0 + f64::EPSILON * 4.0), Some(Ordering::Less));
     }
-    assert_eq!(compare(2.0, 0.0, Side::Near, 7.0), Ordering::Less);
-    assert_eq!(compare(2.0, 0.0, Side::Far, 3.0), Ordering::Greater);
+    assert_eq!(compare(2.0, 0.0, Side::Near, 7.0), Some(Ordering::Less));
+    assert_eq!(compare(2.0, 0.0, Side::Far, 3.0), Some(Ordering::Greater));
+    // No room for either.
+    assert_eq!(compare(2.0, 1e-300, Side::Far, 3.0), None);
+    assert_eq!(compare(2.0, 0.0, Side::Far, 1e-300), None);
 }
 
 #[test]
 fn roots_in_integers_are_the_nearest() {
     let mut random = Random::new(4);
-    let mut hits = 0;
-    for _ in 0..800 {
+    let (mut roots, mut hits) = (0, 0);
+    for _ in 0..1600 {
         let numbers = random_numbers(&mut random);
         let exact = ExactChord::new(numbers);
         let line = line(numbers);
-        for way in ways(&line) {
-            let Verdict::Hit(mut found) = chord(&line, way, Format::F64) else {
+        let mut found = match chord(&line, Format::F64) {
+            Verdict::Hit(found) => found,
+            Verdict::Miss => {
                 assert!(exact.discriminant.is_negative(), "{numbers:?}");
                 continue;
-            };
-            let roots = exact.roots().expect("this hits");
-            for (side, expected) in [Side::Near, Side::Far].into_iter().zip(&roots) {
-                let estimate = number(found.estimate(side));
-                let (t, root) = found.root(side).expect("never in doubt");
-                if exact.discriminant.is_zero() || !expected.is_zero() {
-                    let bound = &Dyadic::exactly(ROOT_ERROR) * &expected.clone().abs();
-                    let part = part_of_bound(&estimate, expected, &bound);
-                    assert!(part <= 1.0, "{part} {numbers:?}");
-                }
-                assert_eq!(t, nearest(expected, t), "{side:?} {numbers:?}");
-                if numbers[9] == 0.0 {
-                    continue;
-                }
-                if let Some(hit) = found.hit(side, t, root) {
-                    assert_exact(Format::F64, numbers, side, &hit);
-                    hits += 1;
-                }
+            }
+            Verdict::Doubt => continue,
+        };
+        let exact_roots = exact.roots().expect("this hits");
+        for (side, expected) in [Side::Near, Side::Far].into_iter().zip(&exact_roots) {
+            let estimate = number(found.estimate(side));
+            if exact.discriminant.is_zero() || !expected.is_zero() {
+                let bound = &Dyadic::exactly(ROOT_ERROR) * &expected.clone().abs();
+                let part = part_of_bound(&estimate, expected, &bound);
+                assert!(part <= 1.0, "{part} {numbers:?}");
+            }
+            let Some((t, root)) = found.root(side) else { continue };
+            roots += 1;
+            assert_eq!(t, nearest(expected, t), "{side:?} {numbers:?}");
+            if numbers[9] == 0.0 {
+                continue;
+            }
+            if let Some(hit) = found.hit(side, t, root) {
+                assert_exact(Format::F64, numbers, side, &hit);
+                hits += 1;
             }
         }
     }
-    assert!(hits > 1000, "{hits} hits");
+    assert!(roots > 1000 && hits > 800, "{roots} roots, {hits} hits");
 }
 
 #[test]
 fn roots_in_integers_are_the_nearest_f32_too() {
-    let check = |numbers: [f64; 10]| {
+    let mut count = 0;
+    let mut check = |numbers: [f64; 10]| {
         let Some(roots) = ExactChord::new(numbers).roots() else { return };
         let line = line(numbers);
-        for way in ways(&line) {
-            let Verdict::Hit(mut found) = chord(&line, way, Format::F32) else {
-                panic!("this hits: {numbers:?}");
-            };
-            for (side, expected) in [Side::Near, Side::Far].into_iter().zip(&roots) {
-                let (root, _) = found.root(side).expect("never in doubt");
-                #[expect(clippy::cast_possible_truncation, reason = "a guess")]
-                let nearest = nearest(expected, expected.approximately() as f32);
-                assert_eq!(root, f64::from(nearest), "{side:?} {numbers:?}");
-            }
+        let mut found = match chord(&line, Format::F32) {
+            Verdict::Hit(found) => found,
+            Verdict::Miss => panic!("this hits: {numbers:?}"),
+            Verdict::Doubt => return,
+        };
+        for (side, expected) in [Side::Near, Side::Far].into_iter().zip(&roots) {
+            let Some((root, _)) = found.root(side) else { continue };
+            #[expect(clippy::cast_possible_truncation, reason = "a guess")]
+            let nearest = nearest(expected, expected.approximately() as f32);
+            assert_eq!(root, f64::from(nearest), "{side:?} {numbers:?}");
+            count += 1;
         }
     };
     // Midpoints of two f32, and what no f64 tells from them.
@@ -304,7 +298,8 @@ fn roots_in_integers_are_the_nearest_f32_too() {
         }
     }
     let mut random = Random::new(5);
-    for _ in 0..500 {
+    for _ in 0..1000 {
         check(random_numbers(&mut random));
     }
+    assert!(count > 500, "{count} roots");
 }

@@ -1,5 +1,4 @@
 use super::*;
-use crate::root::integers::Exact;
 use crate::root::tests::{ExactSurd, assert_exact, exact_root, line};
 use crate::root::{integers, pairs};
 use crate::testing::{Dyadic, ExactChord, Random};
@@ -14,10 +13,7 @@ const ALL: Question = Question::Nearest(0.0..f64::INFINITY);
 const SIDES: [Side; 2] = [Side::Near, Side::Far];
 
 fn ask(line: &Line, format: Format, question: &Question) -> Option<Answer> {
-    match format {
-        Format::F32 => answer::<F32_DIGITS>(line, format, question),
-        Format::F64 => answer::<F64_DIGITS>(line, format, question),
-    }
+    answer(line, format, question)
 }
 
 fn bits(answer: Option<Answer>) -> Option<Vec<u64>> {
@@ -114,6 +110,30 @@ fn answers_at_the_ends_of_the_range_are_the_exact_ones_rounded() {
 }
 
 #[test]
+fn answers_in_few_digits_are_the_exact_ones_rounded() {
+    // Lengths of 600 places and directions of 100, in any units, at the ends of these and next to the surface.
+    let mut random = Random::new(5);
+    let mut hits = 0;
+    for _ in 0..1500 {
+        let [lengths, directions] = [random.integer(-1074..=423), random.integer(-1074..=923)];
+        let mut numbers =
+            [0; 10].map(|_| [0.0, 1.0, 1.0, 2.0, 3.0][random.below(5)] * random.sign());
+        for (index, number) in numbers.iter_mut().enumerate() {
+            let (unit, span) =
+                if (6..9).contains(&index) { (directions, 98) } else { (lengths, 598) };
+            let place = [0, span, span, span, random.integer(0..=span)][random.below(5)];
+            *number = scale(*number, unit + place);
+        }
+        let mut line = line(numbers);
+        line.radius = line.radius.abs();
+        let places = Unit::of_line(&line).map(|units| units.map(|unit| unit.places));
+        assert!(digits_of(places.expect("finite numbers")) <= FEW_DIGITS, "{line:?}");
+        hits += u32::from(check(&line, Format::F64));
+    }
+    assert!(hits > 200, "{hits} hits");
+}
+
+#[test]
 fn memory_that_is_too_small_gives_no_answer() {
     // A sixth less is not enough for all, and where it is, the answer is the same.
     let mut random = Random::new(4);
@@ -121,9 +141,13 @@ fn memory_that_is_too_small_gives_no_answer() {
     for round in 0..3000 {
         let (format, index) = if round % 2 == 0 { (Format::F32, 0) } else { (Format::F64, 1) };
         let line = line_of_ends(&mut random, format);
+        if !line.is_valid() {
+            continue;
+        }
+        let units = Unit::of_line(&line).expect("finite numbers");
         let in_less = || match format {
-            Format::F32 => answer::<{ F32_DIGITS / 6 * 5 }>(&line, format, &ALL),
-            Format::F64 => answer::<{ F64_DIGITS / 6 * 5 }>(&line, format, &ALL),
+            Format::F32 => answer_within::<{ F32_DIGITS / 6 * 5 }>(&line, units, format, &ALL),
+            Format::F64 => answer_within::<{ F64_DIGITS / 6 * 5 }>(&line, units, format, &ALL),
         };
         match std::panic::catch_unwind(in_less) {
             Ok(found) => {
@@ -145,12 +169,8 @@ fn every_careful_step_answers_as_this_one() {
             let expected = bits(ask(line, format, &question));
             let in_pairs =
                 pairs::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
-            let in_integers = if line.is_valid() {
-                integers::chord(line, Exact::new(line), format)
-                    .and_then(|mut chord| question.ask(&mut chord))
-            } else {
-                Verdict::Doubt
-            };
+            let in_integers =
+                integers::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
             for (count, verdict) in counts.iter_mut().zip([in_pairs, in_integers]) {
                 let found = match verdict {
                     Verdict::Miss => None,
@@ -303,8 +323,7 @@ fn a_root_below_the_range_of_pairs_is_not_taken_for_exact() {
     ];
     let line = line(numbers);
     assert!(check(&line, Format::F64));
-    let found = integers::chord(&line, Exact::new(&line), Format::F64)
-        .and_then(|mut chord| ALL.ask(&mut chord));
+    let found = integers::chord(&line, Format::F64).and_then(|mut chord| ALL.ask(&mut chord));
     if let Verdict::Hit(found) = found {
         assert_eq!(bits(Some(found)), bits(ask(&line, Format::F64, &ALL)));
     }

@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use arrayvec::ArrayVec;
 use glam::Vec4;
 
 use super::Tree;
@@ -100,12 +101,12 @@ pub(super) fn leaf<V: Vector>(
     members: &[Member],
     spheres: &[Sphere<V>],
 ) -> Option<(Leaf<V::Scalar>, Bounds)> {
-    let sphere_of = |member: &Member| &spheres[member.index as usize];
-    let first = members.first()?;
-    let mut leaf = Leaf::filled(NONE, &Sphere::new(sphere_of(first).center, V::Scalar::ZERO));
+    // All first: they may be anywhere in memory, and one is not waited for before the next is asked for.
+    let spheres: ArrayVec<Sphere<V>, LANES> =
+        members.iter().take(LANES).map(|member| spheres[member.index as usize]).collect();
+    let mut leaf = Leaf::filled(NONE, &Sphere::new(spheres.first()?.center, V::Scalar::ZERO));
     let mut bounds = Bounds::NONE;
-    for (lane, member) in members.iter().enumerate() {
-        let sphere = sphere_of(member);
+    for (lane, (member, sphere)) in members.iter().zip(&spheres).enumerate() {
         leaf.set(lane, member.index, sphere);
         bounds = bounds.and(Bounds::of(sphere));
     }
