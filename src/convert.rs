@@ -77,6 +77,10 @@ impl Ray<DVec3> {
     /// A coordinate beyond the largest `f32` becomes infinite, and one below half the smallest becomes zero. A ray that is not
     /// finite, or whose direction becomes zero, hits nothing.
     ///
+    /// The rounded ray is another ray. One that [`Hit::spawn`] created starts closer to the surface that it leaves than two
+    /// neighboring `f32` are apart: rounded, about half of such rays start on the other side and hit that surface. So do not ask a
+    /// collection in `f32` with rays from hits in `f64`. `Spheres` and `SphereBvh` are there in `f64`, too.
+    ///
     /// ```
     /// use eyeray::Ray;
     /// use glam::{DVec3, Vec3, dvec3, vec3};

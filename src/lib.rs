@@ -48,7 +48,7 @@
 //! |:--|:--|
 //! | one sphere, shapes of your own | [`Sphere`], [`Hittable`], and [`nearest`] on a slice |
 //! | up to some hundred spheres, or few rays between changes | [`Spheres`] |
-//! | more spheres | [`SphereBvh`], a hierarchy |
+//! | more spheres | [`SphereBvh`], whose `update` moves them |
 //!
 //! All are for both precisions.
 //!

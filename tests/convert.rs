@@ -96,3 +96,25 @@ proptest! {
         prop_assert_eq!(met.is_some(), to.dot(hit.normal) < 0.0);
     }
 }
+
+/// What `Ray::to_f32` warns of: rays that leave a surface do not hit it, and about half of them do once they are rounded.
+#[test]
+fn a_spawned_ray_is_rounded_back_to_its_surface() {
+    let sphere = Sphere::new(dvec3(0.3, -0.7, 20.0), 1.1);
+    let (mut rays, mut hit_again) = (0, 0);
+    for i in -30..=30_i8 {
+        for k in -30..=30_i8 {
+            let direction = dvec3(0.3 + f64::from(i) * 0.03, -0.7 + f64::from(k) * 0.03, 20.0);
+            let ray = Ray::new(DVec3::ZERO, direction);
+            let Some(hit) = sphere.intersect(&ray, 0.0..f64::INFINITY) else { continue };
+            let spawned = hit.spawn(hit.normal);
+            assert!(!sphere.occludes(&spawned, 0.0..f64::INFINITY));
+            rays += 1;
+            hit_again += u32::from(sphere.to_f32().occludes(&spawned.to_f32(), 0.0..f32::INFINITY));
+        }
+    }
+    assert!(
+        rays > 1000 && hit_again * 3 > rays && hit_again * 3 < rays * 2,
+        "{hit_again} of {rays}"
+    );
+}

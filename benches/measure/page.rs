@@ -9,8 +9,8 @@ use super::arguments::Effort;
 use super::conditions;
 
 /// The programs in the order of interest.
-const PROGRAMS: [&str; 5] =
-    ["speed_vs_error", "sphere_slices", "spheres", "crossings", "throughput"];
+const PROGRAMS: [&str; 6] =
+    ["speed_vs_error", "sphere_slices", "spheres", "sphere_scenes", "crossings", "throughput"];
 
 /// The file of a program's part.
 const PART: &str = "page.md";

@@ -5,8 +5,10 @@ mod boxes;
 mod build;
 mod hits;
 mod leaf;
+mod refit;
 mod region;
 mod split;
+mod visits;
 mod walk;
 mod wide;
 
@@ -42,7 +44,8 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// # When to use it
 ///
 /// For more than some hundred spheres, in `f32` and in `f64`. To build it of 20,000 takes some 5 ms, and of a million less than
-/// half a second: compared with a scan of 20,000, that pays from some 1,500 rays a frame (`cargo bench --bench sphere_scenes`). So few spheres that a scan is faster are scanned, as [`Spheres`] does. It
+/// half a second: compared with a scan of 20,000, that pays from some 1,500 rays a frame (`cargo bench --bench sphere_scenes`). If
+/// the spheres move, [`update`](Self::update) takes less. So few spheres that a scan is faster are scanned, as [`Spheres`] does. It
 /// takes 26 to 32 bytes a sphere, and at most 56 in `f64`. (In the repository, `cargo bench
 /// --manifest-path benches/peers/Cargo.toml --bench many_spheres` measures it beside other libraries.)
 ///
@@ -93,6 +96,8 @@ struct Tree<V: Vector> {
     unreachable: Vec<Sphere<V>>,
     /// Where each sphere is: in a lane of a leaf, or else behind them, apart, or else unreachable.
     places: Vec<u32>,
+    /// The sizes of boxes as they were built, once spheres have moved.
+    sizes: Vec<f32>,
 }
 
 /// The bit that tells the number of a leaf from that of a node.
@@ -120,6 +125,43 @@ impl<V: Vector> SphereBvh<V> {
             Self(Shape::Tree(Tree::new(spheres)))
         } else {
             Self(Shape::Scan(spheres.into()))
+        }
+    }
+
+    /// Moves the spheres: the one at each index is replaced by the one at the same index of the slice.
+    ///
+    /// All queries then return what they return of a hierarchy that is built of these spheres. The time differs: while spheres are
+    /// still near where they were, this only makes new boxes around them, which takes a part of the time of building. Once boxes
+    /// have grown by more than a little, on average, or a sphere is of another kind, such as one that no ray could hit, it builds
+    /// the hierarchy anew. So it does if the number of spheres differs.
+    ///
+    /// ```
+    /// use eyeray::{Ray, Sphere, SphereBvh};
+    /// use glam::{Vec3, vec3};
+    ///
+    /// let mut spheres: Vec<Sphere> =
+    ///     (0..1000_u16).map(|i| Sphere::new(Vec3::X * (3.0 * f32::from(i)), 1.0)).collect();
+    /// let mut bvh = SphereBvh::new(&spheres);
+    ///
+    /// let down = Ray::new(vec3(300.0, 10.0, 0.0), Vec3::NEG_Y);
+    /// for frame in 1..=3_u8 {
+    ///     for sphere in &mut spheres {
+    ///         sphere.center.y += 0.1;
+    ///     }
+    ///     bvh.update(&spheres);
+    ///     let found = bvh.nearest(&down, 0.0..f32::INFINITY);
+    ///     assert_eq!(found.map(|(index, _)| index), Some(100));
+    ///     assert!(found.is_some_and(|(_, hit)| (hit.t - (9.0 - 0.1 * f32::from(frame))).abs() < 1e-5));
+    /// }
+    /// ```
+    #[doc(alias("refit", "rebuild"))]
+    pub fn update(&mut self, spheres: &[Sphere<V>]) {
+        let is_moved = match &mut self.0 {
+            Shape::Tree(tree) => tree.places.len() == spheres.len() && tree.refit(spheres),
+            Shape::Scan(_) => false,
+        };
+        if !is_moved {
+            *self = Self::new(spheres);
         }
     }
 
@@ -191,6 +233,12 @@ impl<V: Vector> SphereBvh<V> {
     #[cfg(test)]
     pub(super) fn tree(spheres: &Spheres<V>) -> Self {
         Self(Shape::Tree(Tree::new(spheres.as_slice())))
+    }
+
+    /// Whether spheres have moved since it was built.
+    #[cfg(test)]
+    fn is_moved(&self) -> bool {
+        matches!(&self.0, Shape::Tree(tree) if !tree.sizes.is_empty())
     }
 
     /// The same with that set of instructions.

@@ -88,6 +88,12 @@ in_both! {
     of_equal_distances_the_lowest_index_of_large_and_small
     equals_the_slice_in_a_long_run
     a_hierarchy_keeps_what_it_is_given
+    a_hierarchy_that_is_updated_equals_the_slice
+}
+
+/// A number of cases, or a twentieth where nothing is optimized: those find out whether anything overflows.
+const fn cases(number: usize) -> usize {
+    if cfg!(debug_assertions) { number / 20 } else { number }
 }
 
 pub(super) fn all<V: Vector>() -> Range<V::Scalar> {
@@ -251,7 +257,8 @@ pub(super) fn ranges<V: Tested>(
 fn equals_the_slice_in_every_family_and_length<V: Tested>() {
     for (seed, family) in (1..).zip(FAMILIES) {
         let mut rng = Rng::new(seed);
-        for length in (0..=70).chain([255, 256, 257, 272, 273]) {
+        let step = if cfg!(debug_assertions) { 17 } else { 1 };
+        for length in (0..=70).step_by(step).chain([255, 256, 257, 272, 273]) {
             let (ray, sphere) = V::case(family, &mut rng);
             let scene = Scene::new((0..length).map(|_| member(&mut rng, family, sphere)).collect());
             for range in ranges(&mut rng, &scene.slice, &ray) {
@@ -292,7 +299,7 @@ fn assert_found<V: Tested>(rng: &mut Rng, scene: &Scene<V>, ray: &Ray<V>, sphere
 fn finds_every_sphere_alone_in_every_lane<V: Tested>() {
     for (seed, family) in (1..).zip(FAMILIES) {
         let mut rng = Rng::new(seed);
-        for _ in 0..200 {
+        for _ in 0..cases(200) {
             let (ray, sphere) = V::case(family, &mut rng);
             assert_found_alone(&mut rng, 70, &ray, sphere);
             assert_found_alone(&mut rng, 4, &ray, sphere);
@@ -305,8 +312,9 @@ fn finds_every_sphere_alone_at_every_scale<V: Tested>() {
     let power_of_two = |exponent: i16| scalar::<V>(f64::from(exponent).exp2());
     let mut rng = Rng::new(1);
     for family in FAMILIES.iter().filter(|family| ["easy", "grazing"].contains(&family.name)) {
-        for scale in (-90..=90).step_by(3).map(power_of_two) {
-            for stretch in (-80..=62).step_by(2).map(power_of_two) {
+        let steps = if cfg!(debug_assertions) { [15, 8] } else { [3, 2] };
+        for scale in (-90..=90).step_by(steps[0]).map(power_of_two) {
+            for stretch in (-80..=62).step_by(steps[1]).map(power_of_two) {
                 let (ray, sphere) = V::case(family, &mut rng);
                 let ray = Ray::new(ray.origin * scale, ray.direction * stretch);
                 let sphere = Sphere::new(sphere.center * scale, sphere.radius * scale);
@@ -322,7 +330,7 @@ fn finds_every_sphere_alone_of_any_exponents<V: Tested>() {
     let [largest, least] = V::LIMITS.map(f64::log2);
     let mut rng = Rng::new(2);
     let mut hits = 0;
-    for case in 0..3000 {
+    for case in 0..cases(3000) {
         // A third within what the filters compute with, a third around its limits.
         let (low, high) = [(least, largest), (-70.0, 70.0), (-30.0, 50.0)][case % 3];
         let mut power = || rng.uniform(low, high).exp2();
@@ -332,11 +340,11 @@ fn finds_every_sphere_alone_of_any_exponents<V: Tested>() {
         let away = rng.unit_vector();
         let ray = ray::<V>(target - away * distance, away * length);
         let sphere = sphere::<V>(center, size);
-        hits += u32::from(sphere.occludes(&ray, all::<V>()));
+        hits += usize::from(sphere.occludes(&ray, all::<V>()));
         assert_found_alone(&mut rng, 40, &ray, sphere);
         assert_found_alone(&mut rng, 3, &ray, sphere);
     }
-    assert!(hits > 500, "{hits}");
+    assert!(hits > cases(500), "{hits}");
 }
 
 fn finds_large_spheres_from_afar<V: Tested>() {
@@ -344,25 +352,25 @@ fn finds_large_spheres_from_afar<V: Tested>() {
     let mut rng = Rng::new(1);
     let mut hits = 0;
     for distance in 50..=82_i16 {
-        for _ in 0..50 {
+        for _ in 0..cases(60) {
             let direction = rng.unit_vector() * 1e-5;
             let center = rng.unit_vector() * 59_f64.exp2();
             let origin = center - direction * f64::from(distance).exp2() * 1e5;
             let ray = ray::<V>(origin, direction);
             let sphere = sphere(center, 59_f64.exp2());
-            hits += u32::from(sphere.occludes(&ray, all::<V>()));
+            hits += usize::from(sphere.occludes(&ray, all::<V>()));
             assert_found_alone(&mut rng, 70, &ray, sphere);
             assert_found_alone(&mut rng, 4, &ray, sphere);
         }
     }
-    assert!(hits > 1000, "{hits}");
+    assert!(hits > cases(1000), "{hits}");
 }
 
 /// A scene in the middle of nowhere, with strays and clusters far from each other, seen from near, from afar and from between.
 fn finds_every_sphere_wherever_it_is<V: Tested>() {
     let mut rng = Rng::new(5);
     let (mut asked, mut hits) = (0, 0);
-    for turn in 0..600 {
+    for turn in 0..cases(600) {
         let far = |rng: &mut Rng| 10_f64.powf(rng.uniform(0.0, 8.0));
         let world = rng.unit_vector() * if turn % 3 == 0 { 0.0 } else { far(&mut rng) };
         let scale = 10_f64.powf(rng.uniform(-4.0, 4.0));
@@ -409,7 +417,7 @@ fn finds_every_sphere_wherever_it_is<V: Tested>() {
 
 fn of_equal_distances_the_lowest_index<V: Tested>() {
     let ray = ray::<V>(DVec3::ZERO, DVec3::X);
-    for length in 1..=70 {
+    for length in (1..=70).step_by(if cfg!(debug_assertions) { 23 } else { 1 }) {
         for first in 0..length {
             let scene = Scene::new(
                 (0..length)
@@ -426,7 +434,7 @@ fn of_equal_distances_the_lowest_index<V: Tested>() {
 fn of_equal_distances_the_lowest_index_of_large_and_small<V: Tested>() {
     // All touch the plane x = 2 at the same point. The large ones are kept apart.
     let ray = ray::<V>(DVec3::ZERO, DVec3::X);
-    for turn in 0..200 {
+    for turn in 0..cases(200) {
         let scene = Scene::new(
             (0..200_u8)
                 .map(|i| {
@@ -599,7 +607,7 @@ pub(super) mod questions {
 #[expect(clippy::cast_possible_truncation, reason = "it is below the number of ranges")]
 fn equals_the_slice_in_a_long_run<V: Tested>() {
     let wanted = std::env::var("EYERAY_QUESTIONS");
-    let wanted: u64 = wanted.map_or(6_000, |number| number.parse().unwrap());
+    let wanted: u64 = wanted.map_or(cases(6_000) as u64, |number| number.parse().unwrap());
     let most = if wanted < 100_000 { 300 } else { u64::MAX };
     let mut rng = Rng::new(wanted);
     let (mut asked, mut hits) = (0, 0);
@@ -624,7 +632,7 @@ fn a_hierarchy_keeps_what_it_is_given<V: Tested>() {
         let [x, y, z] = sphere.center.to_f64().to_array();
         [x, y, z, sphere.radius.into()].map(f64::to_bits)
     };
-    for _ in 0..100 {
+    for _ in 0..cases(100) {
         let slice = questions::scene::<V>(&mut rng, 5000);
         let scene = Scene::new(slice);
         for bvh in [&scene.bvh, &scene.slice.iter().collect()] {
@@ -634,4 +642,42 @@ fn a_hierarchy_keeps_what_it_is_given<V: Tested>() {
             assert!(bvh.get(scene.slice.len()).is_none());
         }
     }
+}
+
+/// Spheres that move a little or far, that become others, and that become more or fewer.
+fn a_hierarchy_that_is_updated_equals_the_slice<V: Tested>() {
+    let mut rng = Rng::new(4);
+    let mut hits = 0;
+    for _ in 0..cases(200) {
+        let mut scene = Scene::<V>::new(questions::scene(&mut rng, 600));
+        for _ in 0..4 {
+            let kind = rng.below(8);
+            let step = choose(&mut rng, &[0.0, 1e-3, 0.1, 0.1, 10.0]);
+            for sphere in &mut scene.slice {
+                let shift = rng.unit_vector() * sphere.radius.into() * step;
+                let moved = sphere.center.to_f64() + shift;
+                sphere.center = V::from_f64(moved);
+            }
+            match kind {
+                0 => scene.slice.reverse(),
+                1 => scene.slice.truncate(scene.slice.len() / 2),
+                2 => scene.slice.extend(questions::scene::<V>(&mut rng, 50)),
+                3 if !scene.slice.is_empty() => {
+                    let place = usize::try_from(rng.below(scene.slice.len() as u64)).unwrap_or(0);
+                    scene.slice[place] =
+                        Sphere::new(hostile(&mut rng), hostile_number::<V>(&mut rng));
+                }
+                _ => {}
+            }
+            scene.bvh.update(&scene.slice);
+            scene.scan = Spheres::from(scene.slice.as_slice());
+            assert!(scene.bvh.len() == scene.slice.len());
+            for _ in 0..10 {
+                let ray = questions::ray(&mut rng, &scene.slice);
+                hits += usize::from(nearest(&scene.slice, &ray, all::<V>()).is_some());
+                scene.assert_same(&ray, &all::<V>());
+            }
+        }
+    }
+    assert!(hits > cases(1000), "{hits}");
 }

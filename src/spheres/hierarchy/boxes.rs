@@ -111,14 +111,12 @@ impl Boxes {
     }
 
     /// The box of a lane.
-    #[cfg(test)]
     pub(super) fn bounds_of(&self, lane: usize) -> (Vec3, Vec3) {
         let low = self.planes.map(|[low, _]| low[lane]);
         (low.into(), self.planes.map(|[_, high]| high[lane]).into())
     }
 
     /// The box around all of them.
-    #[cfg(test)]
     pub(super) fn bounds(&self) -> (Vec3, Vec3) {
         let low = self.planes.map(|[low, _]| low.into_iter().fold(f32::INFINITY, f32::min));
         let high = self.planes.map(|[_, high]| high.into_iter().fold(f32::NEG_INFINITY, f32::max));

@@ -12,6 +12,7 @@ use super::build::number;
 use super::leaf::{Leaf, NONE};
 use super::region::{Region, Way};
 use super::split::{DEEPEST, MOST_NESTED};
+use super::visits::{self, Visit};
 use super::{LEAF, Tree};
 use crate::float::sqrt;
 use crate::root::order::is_nearer;
@@ -227,6 +228,7 @@ impl<V: Vector> Tree<V> {
             let place = child(next);
             if place & LEAF != 0 {
                 let Some(leaf) = self.leaves.get((place & !LEAF) as usize) else { return };
+                visits::count(Visit::Leaf);
                 let mut near = query.near(lanes, leaf);
                 while near != 0 {
                     let lane = if near.is_power_of_two() {
@@ -238,6 +240,7 @@ impl<V: Vector> Tree<V> {
                     if leaf.index(lane) == NONE {
                         continue;
                     }
+                    visits::count(Visit::Sphere);
                     if let Some(nearer) = ask(leaf.index(lane), &leaf.sphere(lane), end) {
                         if nearer < V::Scalar::ZERO {
                             return;
@@ -251,6 +254,7 @@ impl<V: Vector> Tree<V> {
                     }
                 }
             } else if let Some(node) = self.nodes.get(place as usize) {
+                visits::count(Visit::Node);
                 let mut entered = lanes.run(Enter { node, query: &mut query });
                 if entered != 0 {
                     let entries = &query.entries.0;
