@@ -63,6 +63,11 @@ impl Wide {
         Pair { hi: scale(self.value.hi, e), lo: scale(self.value.lo, e) }
     }
 
+    /// The number rounded to an `f64`, gradually below the normal ones.
+    pub(crate) fn to_f64(self) -> f64 {
+        scale(self.value.hi, self.exponent)
+    }
+
     /// The square root of a positive number or zero.
     pub(crate) fn sqrt(self) -> Self {
         if self.is_zero() {

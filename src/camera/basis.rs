@@ -10,6 +10,8 @@
 //! cancel, and what is left of them could be all rounding. So both are computed exactly, which also tells for sure whether
 //! there is anything left, and the basis in pairs, of which only the result is rounded to f64.
 
+use core::array;
+
 use glam::DVec3;
 
 use crate::arithmetic::integer::{Integer, PLACES, Shifted};
@@ -30,21 +32,53 @@ pub(super) fn basis(from: DVec3, to: DVec3, up: DVec3) -> Option<[DVec3; 3]> {
     Some([u, v, w].map(|axis| axis.map(|coordinate| coordinate.hi).into()))
 }
 
-/// The sum of at most four products, rounded to 106 bits.
-fn sum<const N: usize>(products: [[f64; 2]; N]) -> Wide {
+/// The point that the rotation of these rows, followed by the translation, moves to the origin: -R⁻¹ t.
+///
+/// By Cramer's rule, with exact determinants, so that it is rounded once. They are not zero.
+pub(super) fn moved_to_origin([x, y, z]: [DVec3; 3], t: DVec3) -> DVec3 {
+    // The coordinate `i` of a × b, times `factor`.
+    let of_cross = |factor: f64, a: DVec3, b: DVec3, i: usize| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        [[factor, a[j], b[k]], [-factor, a[k], b[j]]]
+    };
+    let determinant = {
+        let [[a, b], [c, d], [e, f]] = [0, 1, 2].map(|i| of_cross(x[i], y, z, i));
+        sum([a, b, c, d, e, f])
+    };
+    let coordinate = |i: usize| {
+        let [a, b] = of_cross(-t.x, y, z, i);
+        let [c, d] = of_cross(-t.y, z, x, i);
+        let [e, f] = of_cross(-t.z, x, y, i);
+        // A quotient of zero may be -0.
+        (sum([a, b, c, d, e, f]) / determinant).to_f64() + 0.0
+    };
+    DVec3::new(coordinate(0), coordinate(1), coordinate(2))
+}
+
+/// -a·b, rounded once.
+pub(super) fn negated_dot(a: DVec3, b: DVec3) -> f64 {
+    sum([[-a.x, b.x], [-a.y, b.y], [-a.z, b.z]]).to_f64()
+}
+
+/// The sum of at most eight products of up to three factors, rounded to 106 bits.
+fn sum<const N: usize, const FACTORS: usize>(products: [[f64; FACTORS]; N]) -> Wide {
     /// All numbers are multiples of this, 2⁻¹⁰⁷⁴, and have so many places.
     const UNIT: i32 = -1074;
     const NUMBER: u32 = 2098;
-    /// The sum of four products, and what an [`Integer`] has to spare.
-    const DIGITS: usize = (2 * NUMBER + 2).div_ceil(PLACES) as usize + 3;
-    let mut memory = [[0; DIGITS]; 2];
-    let [mut factor, mut sum] = memory.each_mut().map(|digits| Integer::new(digits));
-    for [a, b] in products {
-        factor.clear();
-        factor.add_number(Shifted::new(a, UNIT));
-        sum.add_times(&factor, Shifted::new(b, UNIT));
+    /// The sum of eight products, and what an [`Integer`] has to spare.
+    const DIGITS: usize = (3 * NUMBER + 3).div_ceil(PLACES) as usize + 3;
+    let mut memory = [[0; DIGITS]; 3];
+    let [mut first, mut product, mut sum] = memory.each_mut().map(|digits| Integer::new(digits));
+    for factors in products {
+        let [a, b, c] =
+            array::from_fn(|i| Shifted::new(factors.get(i).copied().unwrap_or(1.0), UNIT));
+        first.clear();
+        first.add_number(a);
+        product.clear();
+        product.add_times(&first, b);
+        sum.add_times(&product, c);
     }
-    sum.to_wide(2 * UNIT)
+    sum.to_wide(3 * UNIT)
 }
 
 /// The unit vector along `vector`, unless that is zero.

@@ -61,7 +61,6 @@ fn compare_at<V: Vector>(t: V::Scalar, ray: &Ray<V>, spheres: [Option<Sphere<V>>
     compare_known(ray, (a, a_side), (b, b_side))
 }
 
-#[allow(dead_code, reason = "until the iterator over crossings asks it")]
 /// Compares two crossings of one ray, which both exist: `Less` where the first comes before the second, `Equal` only where their
 /// exact roots are equal. The result does not depend on `t`, but takes less time where that is close to both.
 pub(crate) fn compare_crossings<V: Vector>(

@@ -43,7 +43,7 @@ pub(super) struct Region<V> {
 }
 
 /// A ray as it goes through a region.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Way<S> {
     pub(super) slabs: Slabs,
     pub(super) tube: Tube<S>,
