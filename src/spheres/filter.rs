@@ -61,7 +61,7 @@ const LEAST: f64 = f64::from_bits((1023 - 99) << 52); // 2^-99
 pub(super) const LARGEST: f32 = f32::from_bits((127 + 60) << 23); // 2^60
 
 /// The least square of a direction's length that it computes with.
-const LEAST_SQUARE: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
+pub(super) const LEAST_SQUARE: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
 
 /// What the filter knows of 16 spheres.
 ///
@@ -106,6 +106,13 @@ impl Block {
     /// Takes the sphere out of a lane: it is dropped from now on.
     pub(crate) fn clear(&mut self, lane: usize) {
         self.negative_radius_squared[lane] = f32::INFINITY;
+    }
+
+    /// The coordinates of the centers, and -r², made larger: infinite for a sphere that is always dropped, negative infinite for
+    /// one that passes always.
+    #[inline(always)]
+    pub(super) fn numbers(&self) -> [&[f32; LANES]; 4] {
+        [&self.x, &self.y, &self.z, &self.negative_radius_squared]
     }
 
     /// The spheres that the ray may hit before the segment's end, a bit for each.

@@ -2,7 +2,9 @@
 
 mod boxes;
 mod build;
+mod frustum;
 mod leaf;
+mod packet;
 mod split;
 mod walk;
 mod wide;
@@ -57,10 +59,10 @@ use crate::{Hit, Hittable, Ray, Sphere};
 /// assert_eq!(found.map(|(index, hit)| (index, hit.t)), Some((7 * 300 + 12, 9.75)));
 /// ```
 #[derive(Clone)]
-pub struct SphereBvh(Shape);
+pub struct SphereBvh(pub(super) Shape);
 
 #[derive(Clone)]
-enum Shape {
+pub(super) enum Shape {
     /// So few that a scan is faster; or more than an index of 32 bits can tell apart.
     Scan(Spheres),
     Tree(Tree),
@@ -69,7 +71,7 @@ enum Shape {
 /// The spheres in leaves of up to 16, and the leaves in boxes, up to 16 to a node. The children of a node lie together: first its
 /// leaves among all leaves, then its nodes among all nodes.
 #[derive(Clone, Debug)]
-struct Tree {
+pub(super) struct Tree {
     leaves: Vec<Leaf>,
     nodes: Vec<Boxes>,
     /// Where a ray begins: the first of the nodes or of the leaves.

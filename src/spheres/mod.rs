@@ -1,9 +1,11 @@
 //! Collections of spheres. Each has a cheap test over many lanes, which never drops a sphere that is hit, and calls the exact
 //! routine for the few that pass. [`scan`] tests all, [`hierarchy`] those in the boxes along the ray.
 
+mod each;
 mod filter;
 mod hierarchy;
 mod lanes;
+mod packet;
 mod scan;
 #[cfg(feature = "serde")]
 mod serialize;

@@ -55,9 +55,9 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 /// ```
 #[derive(Clone, Default)]
 pub struct Spheres {
-    spheres: Vec<Sphere>,
+    pub(super) spheres: Vec<Sphere>,
     /// The same spheres as the filter needs them.
-    blocks: Vec<Block>,
+    pub(super) blocks: Vec<Block>,
 }
 
 impl Spheres {
@@ -280,7 +280,7 @@ impl Spheres {
 }
 
 /// The places of the bits of a word, ascending.
-struct Bits(u64);
+pub(super) struct Bits(pub(super) u64);
 
 impl Iterator for Bits {
     type Item = usize;

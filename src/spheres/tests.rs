@@ -16,6 +16,7 @@ use crate::{Hit, Hittable, Ray, Sphere, nearest};
 )]
 #[path = "../../tests/support/families.rs"]
 mod families;
+mod pictures;
 
 use families::{FAMILIES, Family, Rng};
 

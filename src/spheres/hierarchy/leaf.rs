@@ -97,6 +97,12 @@ impl Leaf {
         Sphere::new(Vec3::new(self.x[lane], self.y[lane], self.z[lane]), self.radius[lane])
     }
 
+    /// The coordinates of the centers, and the radii.
+    #[inline(always)]
+    pub(super) fn numbers(&self) -> [&[f32; LANES]; 4] {
+        [&self.x, &self.y, &self.z, &self.radius]
+    }
+
     /// Its place in the order in which the spheres were given.
     #[inline(always)]
     pub(super) fn index(&self, lane: usize) -> u32 {

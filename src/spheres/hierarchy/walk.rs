@@ -14,26 +14,26 @@ use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
 use crate::{Hit, Hittable, Ray, Sphere};
 
 /// How much waits to be visited at most: of each node on the way to a leaf, all children but one.
-const MOST_WAITING: usize = DEEPEST * (LANES - 1);
+pub(super) const MOST_WAITING: usize = DEEPEST * (LANES - 1);
 
 /// A node or a leaf that waits, and where the ray enters its box: the bits of that distance, which is not negative, are above
 /// those of what it is. So the nearer has the lower key.
-type Key = u64;
+pub(super) type Key = u64;
 
 #[inline(always)]
-fn key(entry: f32, child: u32) -> Key {
+pub(super) fn key(entry: f32, child: u32) -> Key {
     u64::from(entry.to_bits()) << 32 | u64::from(child)
 }
 
 /// Where the ray enters the box.
 #[inline(always)]
-fn entry(key: Key) -> f32 {
+pub(super) fn entry(key: Key) -> f32 {
     f32::from_bits((key >> 32) as u32)
 }
 
 /// What it is.
 #[inline(always)]
-fn child(key: Key) -> u32 {
+pub(super) fn child(key: Key) -> u32 {
     #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
     let child = key as u32;
     child
@@ -41,7 +41,7 @@ fn child(key: Key) -> u32 {
 
 /// The float after one that is positive and finite.
 #[inline(always)]
-fn above(t: f32) -> f32 {
+pub(super) fn above(t: f32) -> f32 {
     f32::from_bits(t.to_bits() + 1)
 }
 
@@ -276,6 +276,6 @@ impl Tree {
 
 /// Whether a hit comes before the nearest so far.
 #[inline(always)]
-fn is_nearer((index, hit): (u32, Hit), nearest: Option<(u32, Hit)>) -> bool {
+pub(super) fn is_nearer((index, hit): (u32, Hit), nearest: Option<(u32, Hit)>) -> bool {
     nearest.is_none_or(|(lowest, nearest)| (hit.t, index) < (nearest.t, lowest))
 }

@@ -1,0 +1,276 @@
+//! Packets and boxes, in f32 and many lanes at a time: which of 16 boxes some ray may pass through, by the frustum of all, and which
+//! of 16 rays pass through a box. A box may be kept though no ray passes through it; it is never dropped if a sphere in it is hit.
+//!
+//! **The frustum.** Up to the end of the range, the coordinates of all rays at t are between those of two lines: from p₀ along d₀, and from p₁
+//! along d₁, the least and the largest by axis. So a hit at t in a box from b₀ to b₁ has
+//!
+//! ```text
+//! p₀ + t d₀ ≤ b₁   and   p₁ + t d₁ ≥ b₀
+//! ```
+//!
+//! on each axis: six bounds on t, upper ones or lower ones as the signs of d₀ and d₁ are. If both have the same sign, one bound is
+//! where all have entered the slab of the axis, and one is where the first leaves it. Otherwise, both are lower bounds.
+//!
+//! A component below 2 u D (D: the largest component of all directions) is replaced by that, downwards for d₀ and upwards for d₁, which takes
+//! nothing from the frustum. With r for 1 / d and L for the largest coordinate of all, as for one ray, an error of u r in a quotient, two
+//! products and two sums make 7 u L r, and what is left of the [`MARGIN`] of 12 u L r is more than the rounding of t.
+//!
+//! **A box and 16 rays.** With c and h for the middle of a slab and half its width, a ray is in it between c r - p r ∓ h |r|. That does not depend on
+//! signs. With a component below 2 u D (of this ray) replaced by that, of the same sign:
+//!
+//! ```text
+//! r                 a quotient                  is off by at most  u r, and so c r, p r and h r by 3 u L r
+//! c, h              a sum each, halved                             2 u L r
+//! c r, p r, h r     a product each                                 3 u L r
+//! c r - p r         a sum                                          2 u L r
+//! that ∓ h r        a sum                                          3 u L r
+//! the replaced                                                     4 u L r
+//! ```
+//!
+//! Together 17 u L r. The half-width is made larger by [`RAY_MARGIN`] L, 24 u L, which takes a rounding.
+
+use glam::{Vec3, Vec4};
+
+use super::boxes::{Boxes, LEAST_COMPONENT, MARGIN};
+use crate::spheres::lanes::{Instructions, LANES, Vectorized};
+use crate::spheres::packet::{Mask, Packet, RAYS, Sixteen};
+
+/// By how much a box may be missed by a single ray, in L: 24 u. See the derivation above.
+const RAY_MARGIN: f32 = 12.0 * f32::EPSILON;
+
+/// A bound on t: where a line meets a plane, as a product and a sum.
+#[derive(Clone, Copy, Debug)]
+struct Bound {
+    reciprocal: Vec4,
+    offset: Vec4,
+}
+
+impl Bound {
+    /// At any plane, that number.
+    fn none(number: f32) -> Self {
+        Self { reciprocal: Vec4::ZERO, offset: Vec4::splat(number) }
+    }
+
+    fn set(&mut self, axis: usize, origin: f32, direction: f32, reach: f32) {
+        let reciprocal = direction.recip();
+        self.reciprocal[axis] = reciprocal;
+        self.offset[axis] = -(origin * reciprocal) + reciprocal.abs() * reach;
+    }
+
+    #[inline(always)]
+    fn at<I: Instructions>(&self, instructions: I, axis: usize, plane: f32) -> f32 {
+        instructions.multiply_add(plane, self.reciprocal[axis], self.offset[axis])
+    }
+}
+
+/// The frustum of a packet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frustum {
+    /// Where all have entered a slab, at the plane that is nearer.
+    near: Bound,
+    /// Where the first leaves it, at the other one; or none.
+    far: Bound,
+    /// Where the directions have both signs, a lower bound there.
+    second: Bound,
+    is_negative: [bool; 3],
+    first: f32,
+}
+
+impl Frustum {
+    pub(super) fn new(packet: &Packet, largest_coordinate: f32, margin: f32) -> Self {
+        let [low, high] = packet.origins;
+        let [least, greatest] = packet.directions;
+        let reach = margin * largest(packet.origins).max(largest_coordinate);
+        let smallest = largest(packet.directions) * LEAST_COMPONENT;
+        let mut frustum = Self {
+            near: Bound::none(0.0),
+            far: Bound::none(f32::INFINITY),
+            second: Bound::none(f32::NEG_INFINITY),
+            is_negative: [false; 3],
+            first: packet.first,
+        };
+        for axis in 0..3 {
+            let (p, q) = (low[axis], high[axis]);
+            let d = if least[axis].abs() < smallest { -smallest } else { least[axis] };
+            let e = if greatest[axis].abs() < smallest { smallest } else { greatest[axis] };
+            if d > 0.0 {
+                frustum.near.set(axis, q, e, -reach);
+                frustum.far.set(axis, p, d, reach);
+            } else if e < 0.0 {
+                frustum.is_negative[axis] = true;
+                frustum.near.set(axis, p, d, -reach);
+                frustum.far.set(axis, q, e, reach);
+            } else {
+                frustum.near.set(axis, q, e, -reach);
+                frustum.second.set(axis, p, d, -reach);
+            }
+        }
+        frustum
+    }
+
+    /// The boxes through which a ray may pass before `end`, a bit for each, and where the first may enter them.
+    #[inline(always)]
+    pub(super) fn entered<I: Instructions>(
+        &self,
+        instructions: I,
+        boxes: &Boxes,
+        end: f32,
+        entries: &mut [f32; LANES],
+    ) -> u32 {
+        let Self { near, far, second, is_negative, first } = *self;
+        let rows = [0, 1, 2].map(|axis| {
+            let is_negative = usize::from(is_negative[axis]);
+            let planes = &boxes.planes()[axis];
+            (&planes[is_negative], &planes[1 - is_negative])
+        });
+        // Not infinite: an empty box is entered nowhere, and left before.
+        let end = if end < f32::MAX { end } else { f32::MAX };
+        // Comparisons that are one instruction each, and pass over NaN, of an empty box and of no bound.
+        let larger = |a: f32, b: f32| if a > b { a } else { b };
+        let smaller = |a: f32, b: f32| if a < b { a } else { b };
+        let mut lengths = [0.0; LANES];
+        for lane in 0..LANES {
+            let (mut enter, mut leave) = (first, end);
+            for (axis, row) in rows.iter().enumerate() {
+                let (nearer, farther) = (row.0[lane], row.1[lane]);
+                enter = larger(near.at(instructions, axis, nearer), enter);
+                enter = larger(second.at(instructions, axis, farther), enter);
+                leave = smaller(far.at(instructions, axis, farther), leave);
+            }
+            entries[lane] = enter;
+            lengths[lane] = leave - enter;
+        }
+        !instructions.signs(&lengths) & 0xFFFF
+    }
+}
+
+/// The largest coordinate of two.
+fn largest([low, high]: [Vec3; 2]) -> f32 {
+    low.abs().max(high.abs()).max_element()
+}
+
+/// What boxes are tested with: the rays of a packet, 16 at a time.
+#[derive(Debug)]
+pub(super) struct Slabs {
+    sixteens: [SixteenSlabs; RAYS / LANES],
+    /// What half a box's width is made larger by.
+    reach: f32,
+}
+
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+struct SixteenSlabs {
+    /// r and -p r, by axis.
+    reciprocal: [[f32; LANES]; 3],
+    offset: [[f32; LANES]; 3],
+}
+
+impl Slabs {
+    pub(super) const EMPTY: Self = Self {
+        sixteens: [SixteenSlabs { reciprocal: [[0.0; LANES]; 3], offset: [[0.0; LANES]; 3] };
+            RAYS / LANES],
+        reach: 0.0,
+    };
+}
+
+/// Prepares the slabs of a packet.
+pub(super) struct Prepare<'a> {
+    pub(super) slabs: &'a mut Slabs,
+    pub(super) packet: &'a Packet,
+    pub(super) largest_coordinate: f32,
+    pub(super) margin: f32,
+}
+
+impl<'a> Prepare<'a> {
+    pub(super) fn new(slabs: &'a mut Slabs, packet: &'a Packet, largest_coordinate: f32) -> Self {
+        Self { slabs, packet, largest_coordinate, margin: RAY_MARGIN }
+    }
+}
+
+impl Vectorized for Prepare<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) {
+        let Self { slabs, packet, largest_coordinate, margin } = self;
+        slabs.reach = margin * largest(packet.origins).max(largest_coordinate);
+        for (slabs, sixteen) in slabs.sixteens.iter_mut().zip(packet.sixteens()) {
+            let Sixteen { origin, direction, .. } = sixteen;
+            let larger = |a: f32, b: f32| if a > b { a } else { b };
+            for lane in 0..LANES {
+                let magnitudes = direction.map(|numbers| numbers[lane].abs());
+                let least =
+                    larger(larger(magnitudes[0], magnitudes[1]), magnitudes[2]) * LEAST_COMPONENT;
+                for axis in 0..3 {
+                    let magnitude = larger(magnitudes[axis], least);
+                    let reciprocal = (1.0 / magnitude).copysign(direction[axis][lane]);
+                    slabs.reciprocal[axis][lane] = reciprocal;
+                    slabs.offset[axis][lane] = -(origin[axis][lane] * reciprocal);
+                }
+            }
+        }
+    }
+}
+
+/// Asks which rays pass through a box before the nearest sphere so far.
+pub(super) struct Enter<'a> {
+    pub(super) slabs: &'a Slabs,
+    pub(super) packet: &'a Packet,
+    pub(super) boxes: &'a Boxes,
+    pub(super) lane: usize,
+    /// The rays that are asked.
+    pub(super) rays: Mask,
+}
+
+impl Vectorized for Enter<'_> {
+    type Output = Mask;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, instructions: I) -> Mask {
+        let Self { slabs, packet, boxes, lane, rays } = self;
+        let mut middle = [0.0; 3];
+        let mut half = [0.0; 3];
+        for axis in 0..3 {
+            let [low, high] = boxes.planes()[axis].map(|planes| planes[lane % LANES]);
+            middle[axis] = (low + high) * 0.5;
+            half[axis] = (high - low) * 0.5 + slabs.reach;
+        }
+        let mut entered = 0;
+        for ((slabs, sixteen), number) in slabs.sixteens.iter().zip(packet.sixteens()).zip(0..) {
+            let shift = number * LANES;
+            if rays >> shift & 0xFFFF != 0 {
+                let left = slabs.leave(instructions, [middle, half], packet.first, &sixteen.end);
+                entered |= Mask::from(!left & 0xFFFF) << shift;
+            }
+        }
+        entered & rays
+    }
+}
+
+impl SixteenSlabs {
+    /// Which rays leave the box before they enter it.
+    #[inline(always)]
+    fn leave<I: Instructions>(
+        &self,
+        instructions: I,
+        [middle, half]: [[f32; 3]; 2],
+        first: f32,
+        end: &[f32; LANES],
+    ) -> u32 {
+        let larger = |a: f32, b: f32| if a > b { a } else { b };
+        let smaller = |a: f32, b: f32| if a < b { a } else { b };
+        let mut lengths = [0.0; LANES];
+        for lane in 0..LANES {
+            let (mut enter, mut leave) = (first, end[lane]);
+            for axis in 0..3 {
+                let reciprocal = self.reciprocal[axis][lane];
+                let t =
+                    instructions.multiply_add(middle[axis], reciprocal, self.offset[axis][lane]);
+                enter = larger(instructions.multiply_add(-half[axis], reciprocal.abs(), t), enter);
+                leave = smaller(instructions.multiply_add(half[axis], reciprocal.abs(), t), leave);
+            }
+            lengths[lane] = leave - enter;
+        }
+        instructions.signs(&lengths)
+    }
+}

@@ -1,0 +1,163 @@
+//! The way of a packet through the hierarchy: as that of one ray, with what passes for any ray asked of each.
+
+use core::ops::Range;
+
+use arrayvec::ArrayVec;
+
+use super::boxes::{Boxes, MARGIN};
+use super::frustum::{Enter, Frustum, Prepare, Slabs};
+use super::leaf::{Leaf, NONE};
+use super::walk::{Key, MOST_WAITING, child, entry, key};
+use super::{LEAF, Tree};
+use crate::spheres::each::Collection;
+use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
+use crate::spheres::packet::cone::Cone;
+use crate::spheres::packet::{Mask, Packet, Question};
+use crate::{Hit, Ray, Sphere};
+
+/// Numbers of 16 boxes, where one instruction can write them.
+#[repr(align(64))]
+struct Numbers([f32; LANES]);
+
+/// Asks which boxes of a node any ray may enter.
+struct EnterAny<'a> {
+    node: &'a Boxes,
+    frustum: &'a Frustum,
+    end: f32,
+    entries: &'a mut Numbers,
+}
+
+impl Vectorized for EnterAny<'_> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, instructions: I) -> u32 {
+        self.frustum.entered(instructions, self.node, self.end, &mut self.entries.0)
+    }
+}
+
+/// Asks which spheres of a leaf any ray may meet.
+struct InLeaf<'a> {
+    leaf: &'a Leaf,
+    cone: &'a Cone,
+    end: f32,
+}
+
+impl Vectorized for InLeaf<'_> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, instructions: I) -> u32 {
+        self.cone.near(instructions, self.leaf.numbers(), self.end)
+    }
+}
+
+/// How many rays have to enter a box on average, so that to test all rays with it pays.
+const FEWEST: i32 = 3;
+
+/// By how many rays less that may fall behind before the packet is given up.
+const PATIENCE: i32 = 64;
+
+impl Collection for Tree {
+    fn ask<Q: Question>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) -> bool {
+        if !self.apart.is_empty() {
+            packet.scan(lanes, &self.apart, self.first_apart(), question);
+            packet.update_farthest();
+        }
+        let mut slabs = Slabs::EMPTY;
+        lanes.run(Prepare::new(&mut slabs, packet, self.largest_coordinate));
+        let frustum = Frustum::new(packet, self.largest_coordinate, MARGIN);
+        let mut entries = Numbers([0.0; LANES]);
+        let mut waiting = ArrayVec::<(Key, Mask), MOST_WAITING>::new();
+        let mut patience = PATIENCE;
+        let (mut place, mut rays) = (self.root, packet.alive);
+        loop {
+            if place & LEAF != 0 {
+                self.ask_leaf(lanes, packet, place & !LEAF, rays, question);
+            } else if let Some(node) = self.nodes.get(place as usize) {
+                let end = packet.farthest;
+                let mut entered =
+                    lanes.run(EnterAny { node, frustum: &frustum, end, entries: &mut entries });
+                // The nearest is next, and the others as they come.
+                let first = waiting.len();
+                while entered != 0 {
+                    let lane = entered.trailing_zeros();
+                    entered &= entered - 1;
+                    // A box, by its node and its lane: there are fewer than 32 bits can tell apart.
+                    let key = key(entries.0[lane as usize % LANES], place * 16 + lane);
+                    let _ = waiting.try_push((key, rays));
+                }
+                let pushed = waiting.get_mut(first..).unwrap_or_default();
+                pushed.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+            }
+            loop {
+                let Some((key, asked)) = waiting.pop() else { return true };
+                let asked = asked & packet.alive;
+                let (place_of_node, lane) =
+                    (child(key) as usize / LANES, child(key) as usize % LANES);
+                if entry(key) > packet.farthest || asked == 0 {
+                    continue;
+                }
+                let Some(boxes) = self.nodes.get(place_of_node) else { continue };
+                rays = lanes.run(Enter { slabs: &slabs, packet, boxes, lane, rays: asked });
+                patience = (patience + rays.count_ones() as i32 - FEWEST).min(PATIENCE);
+                if patience < 0 {
+                    return false;
+                }
+                if rays != 0 {
+                    place = boxes.child(child(key) % 16);
+                    break;
+                }
+            }
+        }
+    }
+
+    fn member(&self, place: u32) -> Option<(usize, Sphere)> {
+        let (leaf, lane) = (place as usize / LANES, place as usize % LANES);
+        let index = match self.leaves.get(leaf) {
+            Some(leaf) => leaf.index(lane),
+            None => *self.apart_indices.get((place - self.first_apart()) as usize)?,
+        };
+        Some((index as usize, self.at_place(place)?))
+    }
+
+    fn nearest_alone(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
+        self.nearest(lanes, ray, range)
+    }
+
+    fn occludes_alone(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> bool {
+        self.occludes(lanes, ray, range)
+    }
+}
+
+impl Tree {
+    /// Asks the spheres of a leaf.
+    fn ask_leaf<Q: Question>(
+        &self,
+        lanes: Lanes,
+        packet: &mut Packet,
+        place: u32,
+        rays: Mask,
+        question: &mut Q,
+    ) {
+        let Some(leaf) = self.leaves.get(place as usize) else { return };
+        let mut near = lanes.run(InLeaf { leaf, cone: &packet.cone, end: packet.farthest });
+        if near == 0 {
+            return;
+        }
+        while near != 0 {
+            let lane = near.trailing_zeros();
+            near &= near - 1;
+            let sphere = leaf.sphere(lane as usize % LANES);
+            if leaf.index(lane as usize % LANES) != NONE {
+                question.ask(packet, lanes, rays & packet.alive, &sphere, place * 16 + lane);
+            }
+        }
+        packet.update_farthest();
+    }
+
+    /// The place of the first sphere that is kept apart.
+    fn first_apart(&self) -> u32 {
+        super::build::number(self.leaves.len() * LANES)
+    }
+}

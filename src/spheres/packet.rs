@@ -1,0 +1,362 @@
+//! Packets: up to 64 rays that are asked together, for neighbors share their way.
+//!
+//! What all have in common is asked first, of many boxes or spheres at a time: a frustum, or a [`cone`] around the rays. What passes
+//! is asked of 16 rays at a time. For each sphere that a ray meets there, [`bounds`] of t in single precision tell whether it can
+//! be the nearest. So each ray keeps one sphere that is certainly the nearest so far, and the exact routine is asked once, at the
+//! end; at once only where the bounds of two spheres overlap, at the limb, and at the ends of the range. So the answers are those of
+//! one ray at a time, bit for bit.
+
+pub(super) mod bounds;
+pub(super) mod cone;
+
+use core::ops::Range;
+
+use glam::Vec3;
+
+use self::cone::Cone;
+use super::filter::{LARGEST, LEAST_SQUARE};
+use super::lanes::{Instructions, LANES, Lanes, Vectorized};
+use super::scan::{Bits, Spheres};
+use crate::float::sqrt_f32;
+use crate::{Ray, Sphere};
+
+/// How many rays a packet has at most.
+pub(super) const RAYS: usize = 64;
+
+/// Fewer rays are asked one by one.
+const FEWEST: usize = 4;
+
+/// In the place of a sphere, that there is none.
+const NOWHERE: u32 = u32::MAX;
+
+/// The least positive number.
+const LEAST_POSITIVE: f32 = f32::from_bits(1);
+
+/// The factor that makes a length larger than it is: a square errs by 3 u of itself, its reciprocal by 4 u, a root of either by 3 u,
+/// and 3 u more are for the product.
+const LENGTH_FACTOR: f32 = 1.0 + 4.0 * f32::EPSILON;
+
+/// The coordinates of the rays at t are at least those of the lowest origin, and t times the least direction. At the end E of the
+/// range, the lowest point may be higher than that: where rays meet, as at a lamp. As a function of t, the lowest point is the
+/// least of linear functions, which is concave. So it is above the straight line from the lowest origin to the lowest point at E,
+/// the slope of which is (x - p) / E.
+///
+/// With P and D for the largest coordinate of an origin and of a direction, x is off by 2 u (P + E D), x - p by that and u (2 P + E D),
+/// and so are the difference with the error and the quotient: together by at most 9 u (P + E D). The slope is lowered by 16 u of
+/// that, over E.
+const SLOPE_ERROR: f32 = 8.0 * f32::EPSILON;
+
+/// A bit for each ray of a packet.
+pub(super) type Mask = u64;
+
+/// 16 rays, and the nearest sphere so far of each.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Sixteen {
+    pub(super) origin: [[f32; LANES]; 3],
+    pub(super) direction: [[f32; LANES]; 3],
+    /// 1 / d·d.
+    one_over_a: [f32; LANES],
+    /// |d|, and 1 / |d|, made larger.
+    length: [f32; LANES],
+    one_over_length: [f32; LANES],
+    /// The bounds of t at the nearest sphere so far: a sphere is nearer if it is met below the one, and is not if it is met above the
+    /// other. At first, both are the end of the range; of a ray that is no longer asked, below zero.
+    lower: [f32; LANES],
+    pub(super) end: [f32; LANES],
+    /// Where that sphere is, if it has not been asked exactly.
+    place: [u32; LANES],
+}
+
+/// Rays that are asked together.
+#[derive(Debug)]
+pub(super) struct Packet {
+    sixteens: [Sixteen; RAYS / LANES],
+    /// How many of the sixteens have rays.
+    count: usize,
+    /// The rays that are still asked.
+    pub(super) alive: Mask,
+    /// The first number that t may be.
+    pub(super) first: f32,
+    /// No sphere is wanted beyond it by any ray.
+    pub(super) farthest: f32,
+    /// The least and the largest of all origins. With these, and t times those of the directions, all points at any t up to the end
+    /// of the range are bounded.
+    pub(super) origins: [Vec3; 2],
+    pub(super) directions: [Vec3; 2],
+    pub(super) cone: Cone,
+}
+
+impl Packet {
+    /// No rays.
+    pub(super) const EMPTY: Self = Self {
+        sixteens: [const { Sixteen::EMPTY }; RAYS / LANES],
+        count: 0,
+        alive: 0,
+        first: 0.0,
+        farthest: 0.0,
+        origins: [Vec3::ZERO; 2],
+        directions: [Vec3::ZERO; 2],
+        cone: Cone::EMPTY,
+    };
+
+    /// Takes up to [`RAYS`] rays, except those that single precision cannot compute with. Returns which: none if they are too few or
+    /// too far apart, or if the range is empty.
+    pub(super) fn load(&mut self, lanes: Lanes, rays: &[Ray], range: &Range<f32>) -> Mask {
+        self.first = if range.start > 0.0 { range.start } else { LEAST_POSITIVE };
+        let is_empty = range.start.is_nan() || !(self.first < range.end);
+        let Some(ray) = rays.first().filter(|_| rays.len() >= FEWEST && !is_empty) else {
+            return 0;
+        };
+        self.count = rays.len().div_ceil(LANES).min(self.sixteens.len());
+        let sixteens = &mut self.sixteens[..self.count];
+        for (sixteen, rays) in sixteens.iter_mut().zip(rays.chunks(LANES)) {
+            for (lane, ray) in rays.iter().enumerate() {
+                sixteen.set(lane, ray);
+            }
+            for lane in rays.len()..LANES {
+                sixteen.set(lane, ray);
+            }
+        }
+        let given = Mask::MAX >> (RAYS - rays.len().clamp(1, RAYS));
+        let allowed = given & lanes.run(Allowed(sixteens));
+        if allowed == 0 {
+            return 0;
+        }
+        if allowed != given {
+            // In their lanes are others, so that these bound all.
+            let Some(other) = rays.get(allowed.trailing_zeros() as usize) else { return 0 };
+            for place in Bits(given & !allowed) {
+                sixteens[place / LANES].set(place % LANES, other);
+            }
+        }
+        self.farthest = range.end;
+        let extent = lanes.run(Prepare { sixteens, end: range.end });
+        (self.origins, self.directions) = (extent.origins, extent.slopes(range.end));
+        let Some(cone) = Cone::around(lanes, sixteens, &extent, self.first, range.end) else {
+            return 0;
+        };
+        self.cone = cone;
+        self.alive = allowed;
+        for place in Bits(!allowed & (Mask::MAX >> (RAYS - self.count * LANES))) {
+            self.silence(place);
+        }
+        allowed
+    }
+
+    /// The sixteens that have rays.
+    #[inline(always)]
+    pub(super) fn sixteens(&self) -> &[Sixteen] {
+        &self.sixteens[..self.count]
+    }
+
+    /// Asks a ray no more.
+    pub(super) fn drop_ray(&mut self, place: usize) {
+        self.alive &= !(1 << place);
+        self.silence(place);
+    }
+
+    fn silence(&mut self, place: usize) {
+        let sixteen = &mut self.sixteens[place / LANES % (RAYS / LANES)];
+        (sixteen.lower[place % LANES], sixteen.end[place % LANES]) = (-1.0, -1.0);
+    }
+
+    /// The sphere that is certainly the nearest of that ray so far, if it was not asked exactly.
+    pub(super) fn nearest(&self, place: usize) -> Option<u32> {
+        let place = self.sixteens[place / LANES % (RAYS / LANES)].place[place % LANES];
+        (place != NOWHERE).then_some(place)
+    }
+
+    /// Sets the exact distance of the nearest sphere so far, and the number above it.
+    pub(super) fn set_nearest(&mut self, place: usize, t: f32, above: f32) {
+        let sixteen = &mut self.sixteens[place / LANES % (RAYS / LANES)];
+        let lane = place % LANES;
+        (sixteen.lower[lane], sixteen.end[lane], sixteen.place[lane]) = (t, above, NOWHERE);
+    }
+
+    /// Looks again up to where spheres are wanted.
+    pub(super) fn update_farthest(&mut self) {
+        let larger = |a: f32, b: f32| if a > b { a } else { b };
+        let mut farthest = [-1.0; LANES];
+        for sixteen in self.sixteens() {
+            for (farthest, &end) in farthest.iter_mut().zip(&sixteen.end) {
+                *farthest = larger(*farthest, end);
+            }
+        }
+        self.farthest = reduce(farthest, larger);
+    }
+
+    /// Asks all spheres of a collection.
+    pub(super) fn scan<Q: Question>(
+        &mut self,
+        lanes: Lanes,
+        spheres: &Spheres,
+        first_place: u32,
+        question: &mut Q,
+    ) {
+        let mut filtered = 0;
+        while let Some(blocks) = spheres.blocks.get(filtered..).filter(|rest| !rest.is_empty()) {
+            let near = cone::InBlocks { blocks, cone: &self.cone, end: self.farthest };
+            let (skipped, near) = lanes.run(near);
+            let first = (filtered + skipped) * LANES;
+            for index in Bits(near.into()).map(|lane| first + lane) {
+                let Some(sphere) = spheres.spheres.get(index) else { break };
+                #[expect(clippy::cast_possible_truncation, reason = "they are fewer")]
+                question.ask(self, lanes, self.alive, sphere, first_place + index as u32);
+            }
+            filtered += skipped + 1;
+        }
+    }
+}
+
+/// What is asked of all rays.
+pub(super) trait Question {
+    /// Asks whether those rays meet the sphere at that place.
+    fn ask(&mut self, packet: &mut Packet, lanes: Lanes, rays: Mask, sphere: &Sphere, place: u32);
+}
+
+impl Sixteen {
+    const EMPTY: Self = Self {
+        origin: [[0.0; LANES]; 3],
+        direction: [[0.0; LANES]; 3],
+        one_over_a: [0.0; LANES],
+        length: [0.0; LANES],
+        one_over_length: [0.0; LANES],
+        lower: [0.0; LANES],
+        end: [0.0; LANES],
+        place: [NOWHERE; LANES],
+    };
+
+    /// Puts a ray into a lane.
+    #[inline(always)]
+    fn set(&mut self, lane: usize, ray: &Ray) {
+        for axis in 0..3 {
+            self.origin[axis][lane] = ray.origin[axis];
+            self.direction[axis][lane] = ray.direction[axis];
+        }
+    }
+}
+
+/// The square of a length.
+#[inline(always)]
+pub(super) fn square<I: Instructions>(instructions: I, [x, y, z]: [f32; 3]) -> f32 {
+    instructions.multiply_add(z, z, instructions.multiply_add(y, y, x * x))
+}
+
+/// One number of all, the least or the largest.
+#[inline(always)]
+fn reduce(mut numbers: [f32; LANES], choose: impl Fn(f32, f32) -> f32) -> f32 {
+    let mut half = LANES / 2;
+    while half > 0 {
+        for lane in 0..half {
+            numbers[lane] = choose(numbers[lane], numbers[lane + half]);
+        }
+        half /= 2;
+    }
+    numbers[0]
+}
+
+/// Finds the rays that single precision can compute with, as [`Segment::allows`](super::filter::Segment::allows) does.
+struct Allowed<'a>(&'a [Sixteen]);
+
+impl Vectorized for Allowed<'_> {
+    type Output = Mask;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, instructions: I) -> Mask {
+        let mut allowed = 0;
+        for (place, Sixteen { origin, direction, .. }) in self.0.iter().enumerate() {
+            let mut signs = [0.0; LANES];
+            for lane in 0..LANES {
+                let a = square(instructions, direction.map(|numbers| numbers[lane]));
+                let all = a + square(instructions, origin.map(|numbers| numbers[lane]));
+                let is_allowed = (all <= LARGEST * LARGEST) & (a >= LEAST_SQUARE);
+                signs[lane] = if is_allowed { -1.0 } else { 1.0 };
+            }
+            allowed |= Mask::from(instructions.signs(&signs)) << (place * LANES);
+        }
+        allowed
+    }
+}
+
+/// Computes what is the same for all spheres, and the extent of the rays.
+struct Prepare<'a> {
+    sixteens: &'a mut [Sixteen],
+    end: f32,
+}
+
+impl Vectorized for Prepare<'_> {
+    type Output = Extent;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, instructions: I) -> Extent {
+        let Self { sixteens, end } = self;
+        for sixteen in &mut *sixteens {
+            for lane in 0..LANES {
+                let a = square(instructions, sixteen.direction.map(|numbers| numbers[lane]));
+                let one_over_a = 1.0 / a;
+                sixteen.one_over_a[lane] = one_over_a;
+                sixteen.length[lane] = sqrt_f32(a) * LENGTH_FACTOR;
+                sixteen.one_over_length[lane] = sqrt_f32(one_over_a) * LENGTH_FACTOR;
+                (sixteen.lower[lane], sixteen.end[lane]) = (end, end);
+                sixteen.place[lane] = NOWHERE;
+            }
+        }
+        let smaller = |a: f32, b: f32| if a < b { a } else { b };
+        let larger = |a: f32, b: f32| if a > b { a } else { b };
+        let mut extent = Extent::default();
+        for axis in 0..3 {
+            let (mut low, mut high) = ([[f32::MAX; LANES]; 3], [[f32::MIN; LANES]; 3]);
+            for Sixteen { origin, direction, .. } in &*sixteens {
+                for lane in 0..LANES {
+                    let (p, d) = (origin[axis][lane], direction[axis][lane]);
+                    let numbers = [p, d, instructions.multiply_add(d, end, p)];
+                    for (place, number) in numbers.into_iter().enumerate() {
+                        low[place][lane] = smaller(low[place][lane], number);
+                        high[place][lane] = larger(high[place][lane], number);
+                    }
+                }
+            }
+            for (place, which) in [&mut extent.origins, &mut extent.directions, &mut extent.ends]
+                .into_iter()
+                .enumerate()
+            {
+                which[0][axis] = reduce(low[place], smaller);
+                which[1][axis] = reduce(high[place], larger);
+            }
+        }
+        extent
+    }
+}
+
+/// The least and the largest of all origins, all directions, and all points at the end of the range, which may overflow.
+#[derive(Clone, Copy, Debug, Default)]
+struct Extent {
+    origins: [Vec3; 2],
+    directions: [Vec3; 2],
+    ends: [Vec3; 2],
+}
+
+impl Extent {
+    /// The largest component of all.
+    fn largest([low, high]: [Vec3; 2]) -> f32 {
+        low.abs().max(high.abs()).max_element()
+    }
+
+    /// The `end`, if all points there are of a size to compute with.
+    fn end_in_reach(&self, end: f32) -> Option<f32> {
+        (end * Self::largest(self.directions) <= LARGEST).then_some(end)
+    }
+
+    /// The slopes of lines that bound all points up to the end of the range, from the least and the largest origin on: see
+    /// [`SLOPE_ERROR`].
+    fn slopes(&self, end: f32) -> [Vec3; 2] {
+        let Self { origins, directions: [low, high], ends } = *self;
+        let Some(end) = self.end_in_reach(end) else { return [low, high] };
+        let error = (Self::largest(origins) + end * Self::largest([low, high])) * SLOPE_ERROR;
+        [
+            low.max(((ends[0] - origins[0]) - error) / end),
+            high.min(((ends[1] - origins[1]) + error) / end),
+        ]
+    }
+}

@@ -1,0 +1,171 @@
+//! Bounds of t where 16 rays meet a sphere, in f32.
+//!
+//! With o = c - p, a = d·d, and any m next to the closest approach, the exact t of the roots are
+//!
+//! ```text
+//! m = o·d / a,   w = o - m d
+//! t = m + e ∓ √((r² - |w|²) / a + e²),   e = w·d / a
+//! ```
+//!
+//! where e is 0 but for the rounding of m. So t is bounded by two spheres around the same center, one larger and one smaller:
+//!
+//! ```text
+//! m - √((R² - |w|²) / a) - E  ≤  t  ≤  m - √((S² - |w|²) / a) + E
+//! R = r + reach,   S = r - reach
+//! ```
+//!
+//! for the near root, and likewise for the far one. Where R² < |w|², the line misses; where S² > |w|², it certainly hits.
+//!
+//! **The errors.** With u = 2⁻²⁴ and every operation rounded (a fused multiply-add rounds less),
+//!
+//! ```text
+//! o         a difference each                              is off by at most  u |o|
+//! m         o 1, o·d a product and 2 sums, a 3,
+//!           its reciprocal 1, a product 1                                     9 u |o| / |d|: so |e| is no more
+//! w         o, a product, a difference                                        u |o| + u |m| |d| + u |w|
+//! ```
+//!
+//! Where the line hits, |w| is at most about r, and |o| ≤ r + |m| |d|: w is off by at most 2 u (r + |m| |d|), and |w|² by 2 r times
+//! that. |w|² - R² is a sum of x² + y², off by 2 u (x² + y²), and of z² - R², off by u z² + 2 u R²: together by 4 u R². So R² has to
+//! be larger than r² by
+//!
+//! ```text
+//! 2 r 2 u (r + |m| |d|) + 4 u r² = 2 r (4 u r + 2 u |m| |d|)   of the first order, and
+//! (2² + 9²) u² (r + |m| |d|)²                                  of the second: of w, and e² a
+//! ```
+//!
+//! and S² smaller than r² by what is of the first order, where the second order makes t no later. The reach is
+//! [`RADIUS_MARGIN`] r + [`DISTANCE_MARGIN`] |m| |d|, 16 u r + 12 u |m| |d|: 2 r times that is enough for the first order, and its own
+//! square for the second. (S² is smaller by 2 r reach - reach², no less than r times it, where S is not negative.)
+//!
+//! **E.** Of the root, a product with 1 / a, 5 u, and a root, 1 u, leave 3.5 u √(R² / a). m is off by 9 u |o| / |d|; the sum of both and
+//! that with E are off by 2 u |t|, and t is rounded, u |t|. With |o| / |d| ≤ |m| + r / |d| and |t| ≤ |m| + r / |d| + E, together that is
+//! at most 12 u |m| + 15.5 u r / |d|. E is [`MARGIN`], 24 u, times |m| + R / |d|: what is left is more than its own rounding, and makes the
+//! upper bound the larger one of t and of the float above it.
+//!
+//! **Overflow and underflow.** As for leaves, of which [`LEAST`] is added to the reach: a radius below that is never certain to be hit.
+
+use super::{LEAST_POSITIVE, Mask, Packet, Sixteen, square};
+use crate::Sphere;
+use crate::float::sqrt_f32;
+use crate::spheres::lanes::{Instructions, LANES, Vectorized};
+
+/// By which part of itself a radius is made larger, and smaller: 16 u. See the derivation above.
+const RADIUS_MARGIN: f32 = 8.0 * f32::EPSILON;
+
+/// By which part of the way to the closest approach besides: 12 u.
+const DISTANCE_MARGIN: f32 = 6.0 * f32::EPSILON;
+
+/// By which part of |m| + R / |d| the bounds of t are farther apart: 24 u.
+const MARGIN: f32 = 12.0 * f32::EPSILON;
+
+/// By how much a radius is made larger, and smaller, at least: more than underflow can take from it.
+const LEAST: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
+
+/// Asks which rays meet a sphere before the nearest so far.
+pub(in crate::spheres) struct Meet<'a> {
+    pub(in crate::spheres) packet: &'a mut Packet,
+    pub(in crate::spheres) sphere: &'a Sphere,
+    pub(in crate::spheres) place: u32,
+    /// The rays that are asked.
+    pub(in crate::spheres) rays: Mask,
+}
+
+/// What is known of the rays that meet a sphere, or may do so.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::spheres) struct Met {
+    /// Those for which it is certainly the nearest so far.
+    pub(in crate::spheres) surely: Mask,
+    /// Those that have to be asked exactly.
+    pub(in crate::spheres) doubtfully: Mask,
+}
+
+impl Vectorized for Meet<'_> {
+    type Output = Met;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, instructions: I) -> Met {
+        let Self { packet, sphere, place, rays } = self;
+        let first = packet.first;
+        let mut met = Met::default();
+        for (sixteen, number) in packet.sixteens[..packet.count].iter_mut().zip(0..) {
+            let shift = number * LANES;
+            if rays >> shift & 0xFFFF != 0 {
+                let (surely, doubtfully) = sixteen.meet(instructions, sphere, place, first);
+                met.surely |= Mask::from(surely) << shift;
+                met.doubtfully |= Mask::from(doubtfully) << shift;
+            }
+        }
+        Met { surely: met.surely & rays, doubtfully: met.doubtfully & rays }
+    }
+}
+
+impl Sixteen {
+    #[inline(always)]
+    fn meet<I: Instructions>(
+        &mut self,
+        instructions: I,
+        sphere: &Sphere,
+        place: u32,
+        first: f32,
+    ) -> (u32, u32) {
+        let Sphere { center, radius } = *sphere;
+        let (mut closest, mut squares, mut clearances) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        for lane in 0..LANES {
+            let d = self.direction.map(|numbers| numbers[lane]);
+            let x = center.x - self.origin[0][lane];
+            let y = center.y - self.origin[1][lane];
+            let z = center.z - self.origin[2][lane];
+            let h = instructions.multiply_add(d[1], y, d[0] * x);
+            let h = instructions.multiply_add(d[2], z, h);
+            let m = h * self.one_over_a[lane];
+            let x = instructions.multiply_add(-m, d[0], x);
+            let y = instructions.multiply_add(-m, d[1], y);
+            let z = instructions.multiply_add(-m, d[2], z);
+            let outer = radius + self.reach(instructions, lane, m, radius);
+            closest[lane] = m;
+            let one = instructions.multiply_add(y, y, x * x);
+            squares[lane] = instructions.multiply_add(z, z, one);
+            clearances[lane] = one + instructions.multiply_add(-outer, outer, z * z);
+        }
+        let near = instructions.signs(&clearances);
+        if near == 0 {
+            return (0, 0);
+        }
+        let (mut surely, mut doubtfully) = ([0.0; LANES], [0.0; LANES]);
+        for lane in 0..LANES {
+            let m = closest[lane];
+            let reach = self.reach(instructions, lane, m, radius);
+            let inner = radius - reach;
+            let inner = if inner > 0.0 { inner } else { 0.0 };
+            let one_over_a = self.one_over_a[lane];
+            // NaN where the line may miss, and so no comparison holds.
+            let most = sqrt_f32(-clearances[lane] * one_over_a);
+            let inside = instructions.multiply_add(inner, inner, -squares[lane]);
+            let inside = if inside > 0.0 { inside } else { f32::NAN };
+            let least = sqrt_f32(inside * one_over_a);
+            let size =
+                instructions.multiply_add(radius + reach, self.one_over_length[lane], m.abs());
+            let (earlier, later) = (m - size * MARGIN, m + size * MARGIN);
+            // The far root, where the near one is certainly before the range.
+            let is_far = later - least < first;
+            let lower = if is_far { earlier + least } else { earlier - most };
+            let upper = if is_far { later + most } else { later - least };
+            let is_ahead = (later + most >= first) & (lower <= self.end[lane]);
+            let is_sure = (lower >= first) & (upper < self.lower[lane]) & (clearances[lane] < 0.0);
+            surely[lane] = if is_sure { -1.0 } else { 1.0 };
+            doubtfully[lane] = if is_ahead & !is_sure { -1.0 } else { 1.0 };
+            self.lower[lane] = if is_sure { lower } else { self.lower[lane] };
+            self.end[lane] = if is_sure { upper } else { self.end[lane] };
+            self.place[lane] = if is_sure { place } else { self.place[lane] };
+        }
+        (instructions.signs(&surely), instructions.signs(&doubtfully) & near)
+    }
+
+    /// What makes the radius larger.
+    #[inline(always)]
+    fn reach<I: Instructions>(&self, instructions: I, lane: usize, m: f32, radius: f32) -> f32 {
+        let reach = instructions.multiply_add(radius, RADIUS_MARGIN, LEAST);
+        instructions.multiply_add(m.abs() * DISTANCE_MARGIN, self.length[lane], reach)
+    }
+}
