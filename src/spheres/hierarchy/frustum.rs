@@ -8,8 +8,7 @@
 //! p₀ + t d₀ ≤ b₁   and   p₁ + t d₁ ≥ b₀
 //! ```
 //!
-//! on each axis: six bounds on t, upper ones or lower ones as the signs of d₀ and d₁ are. If both have the same sign, one bound is
-//! where all have entered the slab of the axis, and one is where the first leaves it. Otherwise, both are lower bounds.
+//! on each axis: six bounds on t, each an upper or a lower one by the sign of its d.
 //!
 //! A component below 2 u D (D: the largest component of all directions) is replaced by that, downwards for d₀ and upwards for d₁, which takes
 //! nothing from the frustum. With r for 1 / d and L for the largest coordinate of all, as for one ray, an error of u r in a quotient, two
@@ -31,7 +30,7 @@
 
 use glam::{Vec3, Vec4};
 
-use super::boxes::{Boxes, LEAST_COMPONENT, MARGIN};
+use super::boxes::{Boxes, LEAST_COMPONENT};
 use crate::spheres::lanes::{Instructions, LANES, Vectorized};
 use crate::spheres::packet::{Mask, Packet, RAYS, Sixteen};
 
@@ -66,13 +65,10 @@ impl Bound {
 /// The frustum of a packet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frustum {
-    /// Where all have entered a slab, at the plane that is nearer.
-    near: Bound,
-    /// Where the first leaves it, at the other one; or none.
-    far: Bound,
-    /// Where the directions have both signs, a lower bound there.
-    second: Bound,
-    is_negative: [bool; 3],
+    /// Where the lowest line is below a high plane: from a bound on, and up to one, of which one is none.
+    below: [Bound; 2],
+    /// Where the highest line is above a low plane.
+    above: [Bound; 2],
     first: f32,
 }
 
@@ -82,28 +78,17 @@ impl Frustum {
         let [least, greatest] = packet.directions;
         let reach = margin * largest(packet.origins).max(largest_coordinate);
         let smallest = largest(packet.directions) * LEAST_COMPONENT;
-        let mut frustum = Self {
-            near: Bound::none(0.0),
-            far: Bound::none(f32::INFINITY),
-            second: Bound::none(f32::NEG_INFINITY),
-            is_negative: [false; 3],
-            first: packet.first,
-        };
+        let none = [Bound::none(f32::NEG_INFINITY), Bound::none(f32::INFINITY)];
+        let mut frustum = Self { below: none, above: none, first: packet.first };
         for axis in 0..3 {
-            let (p, q) = (low[axis], high[axis]);
             let d = if least[axis].abs() < smallest { -smallest } else { least[axis] };
-            let e = if greatest[axis].abs() < smallest { smallest } else { greatest[axis] };
-            if d > 0.0 {
-                frustum.near.set(axis, q, e, -reach);
-                frustum.far.set(axis, p, d, reach);
-            } else if e < 0.0 {
-                frustum.is_negative[axis] = true;
-                frustum.near.set(axis, p, d, -reach);
-                frustum.far.set(axis, q, e, reach);
-            } else {
-                frustum.near.set(axis, q, e, -reach);
-                frustum.second.set(axis, p, d, -reach);
-            }
+            let is_upper = d > 0.0;
+            let towards = if is_upper { reach } else { -reach };
+            frustum.below[usize::from(is_upper)].set(axis, low[axis], d, towards);
+            let d = if greatest[axis].abs() < smallest { smallest } else { greatest[axis] };
+            let is_upper = d < 0.0;
+            let towards = if is_upper { reach } else { -reach };
+            frustum.above[usize::from(is_upper)].set(axis, high[axis], d, towards);
         }
         frustum
     }
@@ -117,12 +102,8 @@ impl Frustum {
         end: f32,
         entries: &mut [f32; LANES],
     ) -> u32 {
-        let Self { near, far, second, is_negative, first } = *self;
-        let rows = [0, 1, 2].map(|axis| {
-            let is_negative = usize::from(is_negative[axis]);
-            let planes = &boxes.planes()[axis];
-            (&planes[is_negative], &planes[1 - is_negative])
-        });
+        let Self { below, above, first } = *self;
+        let planes = boxes.planes();
         // Not infinite: an empty box is entered nowhere, and left before.
         let end = if end < f32::MAX { end } else { f32::MAX };
         // Comparisons that are one instruction each, and pass over NaN, of an empty box and of no bound.
@@ -131,11 +112,11 @@ impl Frustum {
         let mut lengths = [0.0; LANES];
         for lane in 0..LANES {
             let (mut enter, mut leave) = (first, end);
-            for (axis, row) in rows.iter().enumerate() {
-                let (nearer, farther) = (row.0[lane], row.1[lane]);
-                enter = larger(near.at(instructions, axis, nearer), enter);
-                enter = larger(second.at(instructions, axis, farther), enter);
-                leave = smaller(far.at(instructions, axis, farther), leave);
+            for (axis, [low, high]) in planes.iter().enumerate() {
+                for (bounds, plane) in [(&below, high[lane]), (&above, low[lane])] {
+                    enter = larger(bounds[0].at(instructions, axis, plane), enter);
+                    leave = smaller(bounds[1].at(instructions, axis, plane), leave);
+                }
             }
             entries[lane] = enter;
             lengths[lane] = leave - enter;

@@ -38,14 +38,14 @@
 //! [`RADIUS_MARGIN`] r + [`DISTANCE_MARGIN`] |m| |d|, 16 u r + 12 u |m| |d|: 2 r times that is enough for the first order, and its own
 //! square for the second. (S² is smaller by 2 r reach - reach², no less than r times it, where S is not negative.)
 //!
-//! **E.** Of the root, a product with 1 / a, 5 u, and a root, 1 u, leave 3.5 u √(R² / a). m is off by 9 u |o| / |d|; the sum of both and
-//! that with E are off by 2 u |t|, and t is rounded, u |t|. With |o| / |d| ≤ |m| + r / |d| and |t| ≤ |m| + r / |d| + E, together that is
-//! at most 12 u |m| + 15.5 u r / |d|. E is [`MARGIN`], 24 u, times |m| + R / |d|: what is left is more than its own rounding, and makes the
-//! upper bound the larger one of t and of the float above it.
+//! **E.** Half the chord, the root times 1 / |d|, is off by 14 u r / |d|: u for the root, u for the product, and 1 / |d| is too large by 12 u
+//! at most. m is off by 9 u |o| / |d|; the sum of both and that with E are off by 2 u |t|, and t is rounded, u |t|. With
+//! |o| / |d| ≤ |m| + r / |d| and |t| no more, together that is at most 12 u |m| + 26 u r / |d|. E is [`MARGIN`], 32 u, times |m| + R / |d|: what is
+//! left is more than its own rounding, and an ulp of t, so that the upper bound is also above the float above t.
 //!
 //! **Overflow and underflow.** As for leaves, of which [`LEAST`] is added to the reach: a radius below that is never certain to be hit.
 
-use super::{LEAST_POSITIVE, Mask, Packet, Sixteen, square};
+use super::{Mask, Packet, Sixteen};
 use crate::Sphere;
 use crate::float::sqrt_f32;
 use crate::spheres::lanes::{Instructions, LANES, Vectorized};
@@ -56,8 +56,8 @@ const RADIUS_MARGIN: f32 = 8.0 * f32::EPSILON;
 /// By which part of the way to the closest approach besides: 12 u.
 const DISTANCE_MARGIN: f32 = 6.0 * f32::EPSILON;
 
-/// By which part of |m| + R / |d| the bounds of t are farther apart: 24 u.
-const MARGIN: f32 = 12.0 * f32::EPSILON;
+/// By which part of |m| + R / |d| the bounds of t are farther apart: 32 u.
+const MARGIN: f32 = 16.0 * f32::EPSILON;
 
 /// By how much a radius is made larger, and smaller, at least: more than underflow can take from it.
 const LEAST: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
@@ -138,14 +138,13 @@ impl Sixteen {
             let reach = self.reach(instructions, lane, m, radius);
             let inner = radius - reach;
             let inner = if inner > 0.0 { inner } else { 0.0 };
-            let one_over_a = self.one_over_a[lane];
+            let one_over_length = self.one_over_length[lane];
             // NaN where the line may miss, and so no comparison holds.
-            let most = sqrt_f32(-clearances[lane] * one_over_a);
+            let most = sqrt_f32(-clearances[lane]) * one_over_length;
             let inside = instructions.multiply_add(inner, inner, -squares[lane]);
             let inside = if inside > 0.0 { inside } else { f32::NAN };
-            let least = sqrt_f32(inside * one_over_a);
-            let size =
-                instructions.multiply_add(radius + reach, self.one_over_length[lane], m.abs());
+            let least = sqrt_f32(inside) * one_over_length;
+            let size = instructions.multiply_add(radius + reach, one_over_length, m.abs());
             let (earlier, later) = (m - size * MARGIN, m + size * MARGIN);
             // The far root, where the near one is certainly before the range.
             let is_far = later - least < first;

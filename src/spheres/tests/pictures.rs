@@ -65,6 +65,28 @@ impl Scene {
                     )
                 };
                 assert_eq!(bits(by_scan[place]), *expected, "scan, {}", context());
+                if bits(by_bvh[place]) != *expected {
+                    println!("RAYS {rays:?}\nSPHERE {:?}", expected.map(|e| slice[e.0]));
+                    let fails = |spheres: &[Sphere], rays: &[Ray]| {
+                        let scene = Scene::new(spheres.to_vec());
+                        let mut f = std::vec![None; rays.len()];
+                        scene.bvh.nearest_each_in_lanes(lanes, rays, range, &mut f);
+                        (0..rays.len())
+                            .any(|i| bits(f[i]) != bits(nearest(spheres, &rays[i], range.clone())))
+                    };
+                    let mut few = slice.clone();
+                    let mut i = 0;
+                    while i < few.len() {
+                        let mut fewer = few.clone();
+                        fewer.remove(i);
+                        if fails(&fewer, rays) {
+                            few = fewer;
+                        } else {
+                            i += 1;
+                        }
+                    }
+                    println!("FEW {few:?}");
+                }
                 assert_eq!(bits(by_bvh[place]), *expected, "hierarchy, {}", context());
                 assert_eq!(occluded_by_scan[place], expected.is_some(), "scan, {}", context());
                 assert_eq!(occluded_by_bvh[place], expected.is_some(), "hierarchy, {}", context());
@@ -90,7 +112,8 @@ fn packets_equal_one_ray_at_a_time_in_a_long_run() {
                 choose(&mut rng, &[1, 4, 15, 16, 17, 40, 63, 64, 64, 64, 65, 100, 128, 150]);
             let rays = neighbors(&mut rng, &scene.slice, count);
             hits += scene.assert_same_for_each(&rays, &ALL);
-            let ranges = ranges(&mut rng, &scene.slice, &choose(&mut rng, &rays));
+            let ray = choose(&mut rng, &rays);
+            let ranges = ranges(&mut rng, &scene.slice, &ray);
             scene.assert_same_for_each(&rays, &ranges[rng.below(ranges.len() as u64) as usize]);
             asked += 2 * count;
         }
