@@ -192,8 +192,7 @@ fn pairs<'a, T>(
 
 impl Collection for Spheres {
     fn ask<Q: Question>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) -> bool {
-        packet.scan(lanes, self, 0, question);
-        true
+        packet.scan(lanes, self, 0, question)
     }
 
     fn member(&self, place: u32) -> Option<(usize, Sphere)> {

@@ -26,6 +26,12 @@ pub(super) const RAYS: usize = 64;
 /// Fewer rays are asked one by one.
 const FEWEST: usize = 4;
 
+/// What a test of 16 spheres with one ray takes is to that of 16 rays with one sphere as 1 to this.
+const RAYS_IN_A_TEST: u32 = 2;
+
+/// By how many tests of 16 rays a packet may fall behind before it is given up.
+const PATIENCE: i32 = 64;
+
 /// In the place of a sphere, that there is none.
 const NOWHERE: u32 = u32::MAX;
 
@@ -76,6 +82,8 @@ pub(super) struct Packet {
     count: usize,
     /// The rays that are still asked.
     pub(super) alive: Mask,
+    /// How many tests the packet may still fall behind.
+    patience: i32,
     /// The first number that t may be.
     pub(super) first: f32,
     /// No sphere is wanted beyond it by any ray.
@@ -93,6 +101,7 @@ impl Packet {
         sixteens: [const { Sixteen::EMPTY }; RAYS / LANES],
         count: 0,
         alive: 0,
+        patience: 0,
         first: 0.0,
         farthest: 0.0,
         origins: [Vec3::ZERO; 2],
@@ -138,6 +147,7 @@ impl Packet {
         };
         self.cone = cone;
         self.alive = allowed;
+        self.patience = PATIENCE;
         for place in Bits(!allowed & (Mask::MAX >> (RAYS - self.count * LANES))) {
             self.silence(place);
         }
@@ -186,14 +196,31 @@ impl Packet {
         self.farthest = reduce(farthest, larger);
     }
 
-    /// Asks all spheres of a collection.
+    /// Counts what a step costs, and what it would cost the rays one by one, each as tests of 16 rays. Returns `false` where the
+    /// packet is given up, because it has cost more for too long.
+    #[inline(always)]
+    pub(super) fn pays(&mut self, cost: u32, one_by_one: u32) -> bool {
+        // Both are small.
+        #[expect(clippy::cast_possible_wrap, reason = "both are small")]
+        let gain = one_by_one as i32 - cost as i32;
+        self.patience = (self.patience + gain).min(PATIENCE);
+        self.patience >= 0
+    }
+
+    /// How many tests of 16 rays one of so many is.
+    #[inline(always)]
+    pub(super) fn tests(rays: Mask) -> u32 {
+        (0..RAYS / LANES).map(|number| u32::from(rays >> (number * LANES) & 0xFFFF != 0)).sum()
+    }
+
+    /// Asks all spheres of a collection. Returns `false` if the rays are too far apart for that.
     pub(super) fn scan<Q: Question>(
         &mut self,
         lanes: Lanes,
         spheres: &Spheres,
         first_place: u32,
         question: &mut Q,
-    ) {
+    ) -> bool {
         let mut filtered = 0;
         while let Some(blocks) = spheres.blocks.get(filtered..).filter(|rest| !rest.is_empty()) {
             let near = cone::InBlocks { blocks, cone: &self.cone, end: self.farthest };
@@ -205,7 +232,12 @@ impl Packet {
                 question.ask(self, lanes, self.alive, sphere, first_place + index as u32);
             }
             filtered += skipped + 1;
+            let cost = near.count_ones() * Self::tests(self.alive);
+            if !self.pays(cost, self.alive.count_ones() * (skipped as u32 + 1) / RAYS_IN_A_TEST) {
+                return false;
+            }
         }
+        true
     }
 }
 
@@ -239,7 +271,7 @@ impl Sixteen {
 
 /// The square of a length.
 #[inline(always)]
-pub(super) fn square<I: Instructions>(instructions: I, [x, y, z]: [f32; 3]) -> f32 {
+pub(super) fn square<I: Instructions>(instructions: I, x: f32, y: f32, z: f32) -> f32 {
     instructions.multiply_add(z, z, instructions.multiply_add(y, y, x * x))
 }
 
@@ -267,9 +299,10 @@ impl Vectorized for Allowed<'_> {
         let mut allowed = 0;
         for (place, Sixteen { origin, direction, .. }) in self.0.iter().enumerate() {
             let mut signs = [0.0; LANES];
+            let ([p, q, r], [x, y, z]) = (origin, direction);
             for lane in 0..LANES {
-                let a = square(instructions, direction.map(|numbers| numbers[lane]));
-                let all = a + square(instructions, origin.map(|numbers| numbers[lane]));
+                let a = square(instructions, x[lane], y[lane], z[lane]);
+                let all = a + square(instructions, p[lane], q[lane], r[lane]);
                 let is_allowed = (all <= LARGEST * LARGEST) & (a >= LEAST_SQUARE);
                 signs[lane] = if is_allowed { -1.0 } else { 1.0 };
             }
@@ -292,38 +325,44 @@ impl Vectorized for Prepare<'_> {
     fn run<I: Instructions>(self, instructions: I) -> Extent {
         let Self { sixteens, end } = self;
         for sixteen in &mut *sixteens {
+            let [x, y, z] = &sixteen.direction;
+            let mut numbers = [[0.0; LANES]; 3];
             for lane in 0..LANES {
-                let a = square(instructions, sixteen.direction.map(|numbers| numbers[lane]));
+                let a = square(instructions, x[lane], y[lane], z[lane]);
                 let one_over_a = 1.0 / a;
-                sixteen.one_over_a[lane] = one_over_a;
-                sixteen.length[lane] = sqrt_f32(a) * LENGTH_FACTOR;
-                sixteen.one_over_length[lane] = sqrt_f32(one_over_a) * LENGTH_FACTOR;
-                (sixteen.lower[lane], sixteen.end[lane]) = (end, end);
-                sixteen.place[lane] = NOWHERE;
+                numbers[0][lane] = one_over_a;
+                numbers[1][lane] = sqrt_f32(a) * LENGTH_FACTOR;
+                numbers[2][lane] = sqrt_f32(one_over_a) * LENGTH_FACTOR;
             }
+            [sixteen.one_over_a, sixteen.length, sixteen.one_over_length] = numbers;
+            (sixteen.lower, sixteen.end) = ([end; LANES], [end; LANES]);
+            sixteen.place = [NOWHERE; LANES];
         }
         let smaller = |a: f32, b: f32| if a < b { a } else { b };
         let larger = |a: f32, b: f32| if a > b { a } else { b };
         let mut extent = Extent::default();
         for axis in 0..3 {
-            let (mut low, mut high) = ([[f32::MAX; LANES]; 3], [[f32::MIN; LANES]; 3]);
+            let [mut p_low, mut d_low, mut q_low] = [[f32::MAX; LANES]; 3];
+            let [mut p_high, mut d_high, mut q_high] = [[f32::MIN; LANES]; 3];
             for Sixteen { origin, direction, .. } in &*sixteens {
+                let (origin, direction) = (&origin[axis], &direction[axis]);
                 for lane in 0..LANES {
-                    let (p, d) = (origin[axis][lane], direction[axis][lane]);
-                    let numbers = [p, d, instructions.multiply_add(d, end, p)];
-                    for (place, number) in numbers.into_iter().enumerate() {
-                        low[place][lane] = smaller(low[place][lane], number);
-                        high[place][lane] = larger(high[place][lane], number);
-                    }
+                    let (p, d) = (origin[lane], direction[lane]);
+                    let q = instructions.multiply_add(d, end, p);
+                    p_low[lane] = smaller(p_low[lane], p);
+                    d_low[lane] = smaller(d_low[lane], d);
+                    q_low[lane] = smaller(q_low[lane], q);
+                    p_high[lane] = larger(p_high[lane], p);
+                    d_high[lane] = larger(d_high[lane], d);
+                    q_high[lane] = larger(q_high[lane], q);
                 }
             }
-            for (place, which) in [&mut extent.origins, &mut extent.directions, &mut extent.ends]
-                .into_iter()
-                .enumerate()
-            {
-                which[0][axis] = reduce(low[place], smaller);
-                which[1][axis] = reduce(high[place], larger);
-            }
+            extent.origins[0][axis] = reduce(p_low, smaller);
+            extent.origins[1][axis] = reduce(p_high, larger);
+            extent.directions[0][axis] = reduce(d_low, smaller);
+            extent.directions[1][axis] = reduce(d_high, larger);
+            extent.ends[0][axis] = reduce(q_low, smaller);
+            extent.ends[1][axis] = reduce(q_high, larger);
         }
         extent
     }

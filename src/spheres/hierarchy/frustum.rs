@@ -103,7 +103,7 @@ impl Frustum {
         entries: &mut [f32; LANES],
     ) -> u32 {
         let Self { below, above, first } = *self;
-        let planes = boxes.planes();
+        let [x, y, z] = boxes.planes();
         // Not infinite: an empty box is entered nowhere, and left before.
         let end = if end < f32::MAX { end } else { f32::MAX };
         // Comparisons that are one instruction each, and pass over NaN, of an empty box and of no bound.
@@ -111,13 +111,21 @@ impl Frustum {
         let smaller = |a: f32, b: f32| if a < b { a } else { b };
         let mut lengths = [0.0; LANES];
         for lane in 0..LANES {
-            let (mut enter, mut leave) = (first, end);
-            for (axis, [low, high]) in planes.iter().enumerate() {
-                for (bounds, plane) in [(&below, high[lane]), (&above, low[lane])] {
-                    enter = larger(bounds[0].at(instructions, axis, plane), enter);
-                    leave = smaller(bounds[1].at(instructions, axis, plane), leave);
-                }
-            }
+            let pass = |axis: usize, [low, high]: &[[f32; LANES]; 2]| {
+                (
+                    larger(
+                        below[0].at(instructions, axis, high[lane]),
+                        larger(above[0].at(instructions, axis, low[lane]), first),
+                    ),
+                    smaller(
+                        below[1].at(instructions, axis, high[lane]),
+                        smaller(above[1].at(instructions, axis, low[lane]), end),
+                    ),
+                )
+            };
+            let (x, y, z) = (pass(0, x), pass(1, y), pass(2, z));
+            let enter = larger(larger(x.0, y.0), z.0);
+            let leave = smaller(smaller(x.1, y.1), z.1);
             entries[lane] = enter;
             lengths[lane] = leave - enter;
         }
@@ -176,18 +184,22 @@ impl Vectorized for Prepare<'_> {
         let Self { slabs, packet, largest_coordinate, margin } = self;
         slabs.reach = margin * largest(packet.origins).max(largest_coordinate);
         for (slabs, sixteen) in slabs.sixteens.iter_mut().zip(packet.sixteens()) {
-            let Sixteen { origin, direction, .. } = sixteen;
+            let Sixteen { origin, direction: [x, y, z], .. } = sixteen;
             let larger = |a: f32, b: f32| if a > b { a } else { b };
+            let mut least = [0.0; LANES];
             for lane in 0..LANES {
-                let magnitudes = direction.map(|numbers| numbers[lane].abs());
-                let least =
-                    larger(larger(magnitudes[0], magnitudes[1]), magnitudes[2]) * LEAST_COMPONENT;
-                for axis in 0..3 {
-                    let magnitude = larger(magnitudes[axis], least);
-                    let reciprocal = (1.0 / magnitude).copysign(direction[axis][lane]);
-                    slabs.reciprocal[axis][lane] = reciprocal;
-                    slabs.offset[axis][lane] = -(origin[axis][lane] * reciprocal);
+                let largest = larger(larger(x[lane].abs(), y[lane].abs()), z[lane].abs());
+                least[lane] = largest * LEAST_COMPONENT;
+            }
+            for (axis, (origin, direction)) in origin.iter().zip([x, y, z]).enumerate() {
+                let (mut reciprocals, mut offsets) = ([0.0; LANES], [0.0; LANES]);
+                for lane in 0..LANES {
+                    let magnitude = larger(direction[lane].abs(), least[lane]);
+                    let reciprocal = (1.0 / magnitude).copysign(direction[lane]);
+                    reciprocals[lane] = reciprocal;
+                    offsets[lane] = -(origin[lane] * reciprocal);
                 }
+                (slabs.reciprocal[axis], slabs.offset[axis]) = (reciprocals, offsets);
             }
         }
     }
@@ -241,15 +253,22 @@ impl SixteenSlabs {
         let larger = |a: f32, b: f32| if a > b { a } else { b };
         let smaller = |a: f32, b: f32| if a < b { a } else { b };
         let mut lengths = [0.0; LANES];
+        let [reciprocal_x, reciprocal_y, reciprocal_z] = &self.reciprocal;
+        let [offset_x, offset_y, offset_z] = &self.offset;
         for lane in 0..LANES {
-            let (mut enter, mut leave) = (first, end[lane]);
-            for axis in 0..3 {
-                let reciprocal = self.reciprocal[axis][lane];
-                let t =
-                    instructions.multiply_add(middle[axis], reciprocal, self.offset[axis][lane]);
-                enter = larger(instructions.multiply_add(-half[axis], reciprocal.abs(), t), enter);
-                leave = smaller(instructions.multiply_add(half[axis], reciprocal.abs(), t), leave);
-            }
+            let pass = |axis: usize, reciprocals: &[f32; LANES], offsets: &[f32; LANES]| {
+                let reciprocal = reciprocals[lane];
+                let t = instructions.multiply_add(middle[axis], reciprocal, offsets[lane]);
+                (
+                    instructions.multiply_add(-half[axis], reciprocal.abs(), t),
+                    instructions.multiply_add(half[axis], reciprocal.abs(), t),
+                )
+            };
+            let x = pass(0, reciprocal_x, offset_x);
+            let y = pass(1, reciprocal_y, offset_y);
+            let z = pass(2, reciprocal_z, offset_z);
+            let enter = larger(larger(x.0, y.0), larger(z.0, first));
+            let leave = smaller(smaller(x.1, y.1), smaller(z.1, end[lane]));
             lengths[lane] = leave - enter;
         }
         instructions.signs(&lengths)

@@ -52,16 +52,12 @@ impl Vectorized for InLeaf<'_> {
     }
 }
 
-/// How many rays have to enter a box on average, so that to test all rays with it pays.
-const FEWEST: i32 = 3;
-
-/// By how many rays less that may fall behind before the packet is given up.
-const PATIENCE: i32 = 64;
-
 impl Collection for Tree {
     fn ask<Q: Question>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) -> bool {
         if !self.apart.is_empty() {
-            packet.scan(lanes, &self.apart, self.first_apart(), question);
+            if !packet.scan(lanes, &self.apart, self.first_apart(), question) {
+                return false;
+            }
             packet.update_farthest();
         }
         let mut slabs = Slabs::EMPTY;
@@ -69,11 +65,12 @@ impl Collection for Tree {
         let frustum = Frustum::new(packet, self.largest_coordinate, MARGIN);
         let mut entries = Numbers([0.0; LANES]);
         let mut waiting = ArrayVec::<(Key, Mask), MOST_WAITING>::new();
-        let mut patience = PATIENCE;
         let (mut place, mut rays) = (self.root, packet.alive);
         loop {
             if place & LEAF != 0 {
-                self.ask_leaf(lanes, packet, place & !LEAF, rays, question);
+                if !self.ask_leaf(lanes, packet, place & !LEAF, rays, question) {
+                    return false;
+                }
             } else if let Some(node) = self.nodes.get(place as usize) {
                 let end = packet.farthest;
                 let mut entered =
@@ -100,8 +97,7 @@ impl Collection for Tree {
                 }
                 let Some(boxes) = self.nodes.get(place_of_node) else { continue };
                 rays = lanes.run(Enter { slabs: &slabs, packet, boxes, lane, rays: asked });
-                patience = (patience + rays.count_ones() as i32 - FEWEST).min(PATIENCE);
-                if patience < 0 {
+                if !packet.pays(2 + Packet::tests(asked), 2 * rays.count_ones()) {
                     return false;
                 }
                 if rays != 0 {
@@ -139,11 +135,14 @@ impl Tree {
         place: u32,
         rays: Mask,
         question: &mut Q,
-    ) {
-        let Some(leaf) = self.leaves.get(place as usize) else { return };
+    ) -> bool {
+        let Some(leaf) = self.leaves.get(place as usize) else { return true };
         let mut near = lanes.run(InLeaf { leaf, cone: &packet.cone, end: packet.farthest });
         if near == 0 {
-            return;
+            return true;
+        }
+        if !packet.pays(near.count_ones() * Packet::tests(rays), rays.count_ones()) {
+            return false;
         }
         while near != 0 {
             let lane = near.trailing_zeros();
@@ -154,6 +153,7 @@ impl Tree {
             }
         }
         packet.update_farthest();
+        true
     }
 
     /// The place of the first sphere that is kept apart.

@@ -110,20 +110,27 @@ impl Sixteen {
         first: f32,
     ) -> (u32, u32) {
         let Sphere { center, radius } = *sphere;
-        let (mut closest, mut squares, mut clearances) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let Self { origin: [origin_x, origin_y, origin_z], .. } = self;
+        let Self { direction: [direction_x, direction_y, direction_z], .. } = self;
+        let Self { one_over_a, length, .. } = self;
+        let least_reach = radius * RADIUS_MARGIN + LEAST;
+        let (mut closest, mut reaches) = ([0.0; LANES], [0.0; LANES]);
+        let (mut squares, mut clearances) = ([0.0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
-            let d = self.direction.map(|numbers| numbers[lane]);
-            let x = center.x - self.origin[0][lane];
-            let y = center.y - self.origin[1][lane];
-            let z = center.z - self.origin[2][lane];
-            let h = instructions.multiply_add(d[1], y, d[0] * x);
-            let h = instructions.multiply_add(d[2], z, h);
-            let m = h * self.one_over_a[lane];
-            let x = instructions.multiply_add(-m, d[0], x);
-            let y = instructions.multiply_add(-m, d[1], y);
-            let z = instructions.multiply_add(-m, d[2], z);
-            let outer = radius + self.reach(instructions, lane, m, radius);
+            let x = center.x - origin_x[lane];
+            let y = center.y - origin_y[lane];
+            let z = center.z - origin_z[lane];
+            let h = instructions.multiply_add(direction_y[lane], y, direction_x[lane] * x);
+            let h = instructions.multiply_add(direction_z[lane], z, h);
+            let m = h * one_over_a[lane];
+            let x = instructions.multiply_add(-m, direction_x[lane], x);
+            let y = instructions.multiply_add(-m, direction_y[lane], y);
+            let z = instructions.multiply_add(-m, direction_z[lane], z);
+            let reach =
+                instructions.multiply_add(m.abs() * DISTANCE_MARGIN, length[lane], least_reach);
+            let outer = radius + reach;
             closest[lane] = m;
+            reaches[lane] = reach;
             let one = instructions.multiply_add(y, y, x * x);
             squares[lane] = instructions.multiply_add(z, z, one);
             clearances[lane] = one + instructions.multiply_add(-outer, outer, z * z);
@@ -133,38 +140,33 @@ impl Sixteen {
             return (0, 0);
         }
         let (mut surely, mut doubtfully) = ([0.0; LANES], [0.0; LANES]);
+        // Copies, or the compiler would have to write number by number.
+        let (mut lowers, mut ends, mut places) = (self.lower, self.end, self.place);
+        let one_over_length = &self.one_over_length;
         for lane in 0..LANES {
-            let m = closest[lane];
-            let reach = self.reach(instructions, lane, m, radius);
+            let (m, reach) = (closest[lane], reaches[lane]);
             let inner = radius - reach;
             let inner = if inner > 0.0 { inner } else { 0.0 };
-            let one_over_length = self.one_over_length[lane];
             // NaN where the line may miss, and so no comparison holds.
-            let most = sqrt_f32(-clearances[lane]) * one_over_length;
+            let most = sqrt_f32(-clearances[lane]) * one_over_length[lane];
             let inside = instructions.multiply_add(inner, inner, -squares[lane]);
             let inside = if inside > 0.0 { inside } else { f32::NAN };
-            let least = sqrt_f32(inside) * one_over_length;
-            let size = instructions.multiply_add(radius + reach, one_over_length, m.abs());
+            let least = sqrt_f32(inside) * one_over_length[lane];
+            let size = instructions.multiply_add(radius + reach, one_over_length[lane], m.abs());
             let (earlier, later) = (m - size * MARGIN, m + size * MARGIN);
             // The far root, where the near one is certainly before the range.
             let is_far = later - least < first;
             let lower = if is_far { earlier + least } else { earlier - most };
             let upper = if is_far { later + most } else { later - least };
-            let is_ahead = (later + most >= first) & (lower <= self.end[lane]);
-            let is_sure = (lower >= first) & (upper < self.lower[lane]) & (clearances[lane] < 0.0);
+            let is_ahead = (later + most >= first) & (lower <= ends[lane]);
+            let is_sure = (lower >= first) & (upper < lowers[lane]) & (clearances[lane] < 0.0);
             surely[lane] = if is_sure { -1.0 } else { 1.0 };
             doubtfully[lane] = if is_ahead & !is_sure { -1.0 } else { 1.0 };
-            self.lower[lane] = if is_sure { lower } else { self.lower[lane] };
-            self.end[lane] = if is_sure { upper } else { self.end[lane] };
-            self.place[lane] = if is_sure { place } else { self.place[lane] };
+            lowers[lane] = if is_sure { lower } else { lowers[lane] };
+            ends[lane] = if is_sure { upper } else { ends[lane] };
+            places[lane] = if is_sure { place } else { places[lane] };
         }
+        (self.lower, self.end, self.place) = (lowers, ends, places);
         (instructions.signs(&surely), instructions.signs(&doubtfully) & near)
-    }
-
-    /// What makes the radius larger.
-    #[inline(always)]
-    fn reach<I: Instructions>(&self, instructions: I, lane: usize, m: f32, radius: f32) -> f32 {
-        let reach = instructions.multiply_add(radius, RADIUS_MARGIN, LEAST);
-        instructions.multiply_add(m.abs() * DISTANCE_MARGIN, self.length[lane], reach)
     }
 }

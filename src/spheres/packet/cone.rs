@@ -152,18 +152,22 @@ impl Vectorized for Distances<'_> {
     fn run<I: Instructions>(self, instructions: I) -> [f32; 3] {
         let Self { sixteens, axis: [origin, direction], end } = self;
         let larger = |a: f32, b: f32| if a > b { a } else { b };
-        let mut largest = [[0.0; LANES]; 3];
+        let [mut at_start, mut of_direction, mut at_end] = [[0.0; LANES]; 3];
         for sixteen in sixteens {
+            let ([p, q, r], [x, y, z]) = (&sixteen.origin, &sixteen.direction);
             for lane in 0..LANES {
-                let p = [0, 1, 2].map(|axis| sixteen.origin[axis][lane] - origin[axis]);
-                let d = [0, 1, 2].map(|axis| sixteen.direction[axis][lane] - direction[axis]);
-                let q = [0, 1, 2].map(|axis| instructions.multiply_add(end, d[axis], p[axis]));
-                for (largest, vector) in largest.iter_mut().zip([p, d, q]) {
-                    largest[lane] = larger(largest[lane], square(instructions, vector));
-                }
+                let [p, q, r] = [p[lane] - origin.x, q[lane] - origin.y, r[lane] - origin.z];
+                let [x, y, z] =
+                    [x[lane] - direction.x, y[lane] - direction.y, z[lane] - direction.z];
+                at_start[lane] = larger(at_start[lane], square(instructions, p, q, r));
+                of_direction[lane] = larger(of_direction[lane], square(instructions, x, y, z));
+                let p = instructions.multiply_add(end, x, p);
+                let q = instructions.multiply_add(end, y, q);
+                let r = instructions.multiply_add(end, z, r);
+                at_end[lane] = larger(at_end[lane], square(instructions, p, q, r));
             }
         }
-        largest.map(|numbers| super::reduce(numbers, larger))
+        [at_start, of_direction, at_end].map(|numbers| super::reduce(numbers, larger))
     }
 }
 
