@@ -65,28 +65,6 @@ impl Scene {
                     )
                 };
                 assert_eq!(bits(by_scan[place]), *expected, "scan, {}", context());
-                if bits(by_bvh[place]) != *expected {
-                    println!("RAYS {rays:?}\nSPHERE {:?}", expected.map(|e| slice[e.0]));
-                    let fails = |spheres: &[Sphere], rays: &[Ray]| {
-                        let scene = Scene::new(spheres.to_vec());
-                        let mut f = std::vec![None; rays.len()];
-                        scene.bvh.nearest_each_in_lanes(lanes, rays, range, &mut f);
-                        (0..rays.len())
-                            .any(|i| bits(f[i]) != bits(nearest(spheres, &rays[i], range.clone())))
-                    };
-                    let mut few = slice.clone();
-                    let mut i = 0;
-                    while i < few.len() {
-                        let mut fewer = few.clone();
-                        fewer.remove(i);
-                        if fails(&fewer, rays) {
-                            few = fewer;
-                        } else {
-                            i += 1;
-                        }
-                    }
-                    println!("FEW {few:?}");
-                }
                 assert_eq!(bits(by_bvh[place]), *expected, "hierarchy, {}", context());
                 assert_eq!(occluded_by_scan[place], expected.is_some(), "scan, {}", context());
                 assert_eq!(occluded_by_bvh[place], expected.is_some(), "hierarchy, {}", context());
