@@ -4,6 +4,7 @@ use core::ops::Range;
 
 use crate::arithmetic::number::{Number, Triple};
 use crate::root::chord::{Chord, Derivation};
+use crate::sealed::Crate;
 use crate::{Hit, Hittable, Ray, Sphere, Vector, rejection};
 
 /// A sphere whose roots are found by the quadratic formula: the algebraic derivation.
@@ -41,7 +42,7 @@ pub struct Algebraic<V: Vector = glam::Vec3>(pub Sphere<V>);
 impl<V: Vector> Hittable<V> for Algebraic<V> {
     #[inline(always)]
     fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>> {
-        V::intersect::<Quadratic>(&self.0, ray, range)
+        self.0.intersect_by::<Quadratic>(ray, range)
     }
 
     #[inline(always)]
@@ -50,7 +51,12 @@ impl<V: Vector> Hittable<V> for Algebraic<V> {
     }
 
     #[inline(always)]
-    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32 {
+    fn as_sphere(&self) -> Option<Sphere<V>> {
+        Some(self.0)
+    }
+
+    #[inline(always)]
+    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>, _: Crate) -> u32 {
         rejection::may_hit_four(objects.each_ref().map(|Self(sphere)| sphere), ray, range.end)
     }
 }

@@ -27,13 +27,8 @@ impl From<Hit<Vec3>> for Hit<DVec3> {
     #[inline]
     fn from(hit: Hit<Vec3>) -> Self {
         let Hit { t, point, normal, .. } = hit;
-        Self {
-            t: t.into(),
-            point: point.into(),
-            normal: normal.into(),
-            // The point stays rounded to f32.
-            error: hit.clearance().into(),
-        }
+        // The point stays rounded to f32.
+        Self::new(t.into(), point.into(), normal.into(), hit.clearance().into())
     }
 }
 

@@ -1,12 +1,16 @@
 //! The hit: where a ray meets a surface, and the rays that leave from there.
 
-use glam::DVec3;
+mod sign;
 
+use core::fmt::{self, Debug, Formatter};
+
+use crate::sealed::{Internal, Operation};
 use crate::{Ray, Scalar, Vector};
 
 /// A hit of a ray on a surface: the distance, the point and the normal.
 ///
-/// [`Hittable::intersect`](crate::Hittable::intersect) returns it, and [`spawn`](Self::spawn) creates the rays that leave from it.
+/// [`Hittable::intersect`](crate::Hittable::intersect) returns it, and [`spawn`](Self::spawn) creates the rays that leave from
+/// it.
 ///
 /// ```
 /// use eyeray::{Hittable, Ray, Sphere};
@@ -26,7 +30,7 @@ use crate::{Ray, Scalar, Vector};
 ///     assert!(sphere.intersect(&reflected, 0.0..f32::INFINITY).is_none());
 /// }
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hit<V: Vector = glam::Vec3> {
     /// The distance along the ray, in lengths of its direction.
@@ -43,8 +47,8 @@ impl<V: Vector> Hit<V> {
     /// Creates a hit, for an implementation of [`Hittable`](crate::Hittable).
     ///
     /// `error` is a bound on the distance of `point` from the surface, without the final rounding of its coordinates. The rays of
-    /// [`spawn`](Self::spawn) start at the distance `error` plus a few ulp from `point`, along the normal, so that they start on the
-    /// side to which they leave.
+    /// [`spawn`](Self::spawn) start at the distance `error` plus a few ulp from `point`, along the normal, so that they start on
+    /// the side to which they leave.
     ///
     /// ```
     /// use core::ops::Range;
@@ -85,9 +89,10 @@ impl<V: Vector> Hit<V> {
 
     /// Returns whether `direction` points outwards, to the side of the normal.
     ///
-    /// This is the side on which [`spawn`](Self::spawn) starts a ray along `direction`. A direction along the surface counts as outward. The sign of the dot product with the normal is computed in `f64`, where it
-    /// is not lost to rounding or underflow; use this instead of `direction.dot(hit.normal) > 0.0` to tell reflection from
-    /// refraction, or which medium a ray enters.
+    /// This is the side on which [`spawn`](Self::spawn) starts a ray along `direction`. It follows from the sign of the exact dot
+    /// product with [`normal`](Self::normal), which neither rounding nor underflow changes. A direction at a right angle to the
+    /// normal counts as outward, one with a NaN does not. Use this instead of `direction.dot(hit.normal) > 0.0` to tell
+    /// reflection from refraction, or which medium a ray enters.
     ///
     /// ```
     /// use eyeray::{Hittable, Ray, Sphere};
@@ -107,17 +112,19 @@ impl<V: Vector> Hit<V> {
 
     /// Returns the distance from `point`, along the normal, at which the rays of [`spawn`](Self::spawn) start.
     ///
-    /// It is the bound on the error of `point` plus 4 ulp of its largest coordinate.
+    /// It is the bound on the error of `point` plus 4 ulp of its largest coordinate. If either is infinite or NaN, the clearance
+    /// is 0, and the rays start at `point` itself.
     #[inline]
     #[must_use]
     pub fn clearance(&self) -> V::Scalar {
-        // With x the largest coordinate of the point, an ulp of x is at most an ulp of 1 times x. The rounding of the point is half
-        // an ulp a coordinate, that of the spawned origin as much, or one where it passes a power of two: together at most
+        // With x the largest coordinate of the point, an ulp of x is at most an ulp of 1 times x. The rounding of the point is
+        // half an ulp a coordinate, that of the spawned origin as much, or one where it passes a power of two: together at most
         // 1.51 √3 < 2.7 ulp of distance. Where an ulp is no smaller than the smallest numbers, there are 4 of these.
         let largest = V::Scalar::from_f64(self.point.to_f64().abs().max_element());
-        let [four_ulps, four_least] =
-            [4.0 * V::UNIT_ULP, 4.0 * V::LEAST_POSITIVE].map(V::Scalar::from_f64);
-        largest * four_ulps + (self.error + four_least)
+        let [four_ulps, four_least] = V::perform(LastPlaces).map(|x| V::Scalar::from_f64(4.0 * x));
+        let clearance = largest * four_ulps + (self.error + four_least);
+        // An infinite one times a zero of the normal would be NaN.
+        if clearance < V::Scalar::INFINITY { clearance } else { V::Scalar::ZERO }
     }
 
     /// Creates a ray that leaves the surface here along `direction`: a reflected, refracted or shadow ray.
@@ -128,12 +135,12 @@ impl<V: Vector> Hit<V> {
     ///
     /// # Clearance
     ///
-    /// On a [`Sphere`](crate::Sphere), a ray that leaves outwards starts strictly outside and never hits that sphere again, and one
-    /// that goes inwards starts strictly inside and hits its far wall, if the radius is at least 1,000 ulp of the coordinates of the
-    /// point. The clearance follows from the bounds on all rounding errors. It is at most 32 times the sum of an ulp of the largest
-    /// coordinate of the point and the smaller of 2⁻³² of the distance travelled and 2⁻²⁴ of the radius, and 2⁻⁴⁷ of the radius more
-    /// (with `DVec3` 2⁻⁶², 2⁻⁵³ and 2⁻¹⁰²). So on a ground of radius 1,000 or on a planet it is a few ulp of
-    /// the point's coordinates. A ray can miss what is closer to the surface than the clearance: rays that leave a ground within some
+    /// On a [`Sphere`](crate::Sphere), a ray that leaves outwards starts strictly outside and never hits that sphere again, and
+    /// one that goes inwards starts strictly inside and hits its far wall, if the radius is at least 1,000 ulp of the coordinates
+    /// of the point. The clearance follows from the bounds on all rounding errors. It is at most 32 times the sum of an ulp of
+    /// the largest coordinate of the point and the smaller of 2⁻³² of the distance travelled and 2⁻²⁴ of the radius, and 2⁻⁴⁷ of
+    /// the radius more (with `DVec3` 2⁻⁶², 2⁻⁵³ and 2⁻¹⁰²). So on a ground of radius 1,000 or on a planet it is a few ulp of the
+    /// point's coordinates. A ray can miss what is closer to the surface than the clearance: rays that leave a ground within some
     /// 10⁻⁴ of the point (100, 0, 0) can miss a ball that touches the ground there.
     ///
     /// None of this holds where `t` leaves the range of the floats: a radius of 1e-40 hit along a direction of length 1e15 has a
@@ -145,9 +152,7 @@ impl<V: Vector> Hit<V> {
     #[must_use]
     #[doc(alias("self_intersection", "offset_ray_origin", "spawn_ray"))]
     pub fn spawn(&self, direction: V) -> Ray<V> {
-        // Infinite where the point overflows; times a zero of the normal, that would be NaN.
         let clearance = self.clearance();
-        let clearance = if clearance < V::Scalar::INFINITY { clearance } else { V::Scalar::ZERO };
         let clearance = if self.is_outward(direction) { clearance } else { -clearance };
         Ray::new(self.point + self.normal * clearance, direction)
     }
@@ -155,10 +160,32 @@ impl<V: Vector> Hit<V> {
     /// Returns a number with the sign of `direction`·normal.
     #[inline]
     fn outwards(&self, direction: V) -> f64 {
-        // So that even products of subnormal numbers do not vanish, nor those of the largest overflow.
-        const SMALL: f64 = 1e-30;
-        let direction: DVec3 = direction.to_f64();
-        let scale = if direction.abs().max_element() < SMALL { SMALL.recip() } else { 0.25 };
-        (direction * scale).dot(self.normal.to_f64())
+        sign::of_dot(direction.to_f64(), self.normal.to_f64())
+    }
+}
+
+impl<V: Vector> Debug for Hit<V> {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let Self { t, point, normal, .. } = self;
+        f.debug_struct("Hit")
+            .field("t", t)
+            .field("point", point)
+            .field("normal", normal)
+            .finish_non_exhaustive()
+    }
+}
+
+/// An ulp of 1, and the smallest number above 0.
+struct LastPlaces;
+
+impl<V> Operation<V> for LastPlaces {
+    type Output = [f64; 2];
+
+    #[inline(always)]
+    fn run(self) -> [f64; 2]
+    where
+        V: Internal,
+    {
+        [V::UNIT_ULP, V::LEAST_POSITIVE]
     }
 }

@@ -5,7 +5,9 @@ use core::iter;
 use core::ops::Range;
 
 use crate::rejection::HAS_VECTORS;
-use crate::{Hit, Ray, Vector};
+use crate::root::order::{is_nearer, next_above};
+use crate::sealed::Crate;
+use crate::{Hit, Ray, Sphere, Vector};
 
 /// A trait for everything that a ray can hit: a sphere, many spheres, or a shape of your own.
 ///
@@ -45,7 +47,8 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     /// Returns the nearest hit with `t` > 0 and in `range`, or `None` if there is none.
     ///
     /// To find where the ray leaves a sphere after `hit`, begin the range just above its `t`: at `hit.t.next_up()` or, before Rust
-    /// 1.86, at `f32::from_bits(hit.t.to_bits() + 1)`.
+    /// 1.86, at `f32::from_bits(hit.t.to_bits() + 1)`. It costs about what the entry costs. Among several objects, such a range skips
+    /// what has the same `t`.
     ///
     /// ```
     /// use eyeray::{Hittable, Ray, Sphere};
@@ -62,7 +65,7 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     ///
     /// // A ray starts inside a sphere if and only if its roots lie on either side of 0.
     /// let is_inside = |[near, far]: [f32; 2]| near < 0.0 && 0.0 < far;
-    /// assert_eq!(sphere.roots_algebraic(&ray).map(is_inside), Some(false));
+    /// assert_eq!(sphere.roots(&ray).map(is_inside), Some(false));
     /// ```
     #[doc(alias("raycast", "ray_cast", "cast_ray", "trace", "hit"))]
     fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>>;
@@ -114,11 +117,54 @@ pub trait Hittable<V: Vector = glam::Vec3> {
         true
     }
 
-    /// Returns which of four objects [may be hit](Self::may_hit), as a bit mask: bit `1 << i` stands for `objects[i]`.
+    /// Returns the sphere that this object is, or `None` for any other shape.
     ///
-    /// On targets with vectors of four numbers, [`nearest`] and slices test four objects at a time.
+    /// [`nearest`] and slices ask for it where two objects are hit at an equal `t`: which of the two spheres is in front is then
+    /// decided by their exact roots. The default implementation returns `None`. A shape that contains a sphere, such as a sphere with
+    /// a material, should forward the call to the sphere, if its hits are those of the sphere on the same ray.
+    ///
+    /// ```
+    /// use core::ops::Range;
+    /// use eyeray::{Hit, Hittable, Ray, Sphere, nearest};
+    /// use glam::{Vec3, vec3};
+    ///
+    /// struct Ball {
+    ///     sphere: Sphere,
+    ///     color: Vec3,
+    /// }
+    ///
+    /// impl Hittable for Ball {
+    ///     fn intersect(&self, ray: &Ray, range: Range<f32>) -> Option<Hit> {
+    ///         self.sphere.intersect(ray, range)
+    ///     }
+    ///
+    ///     fn may_hit(&self, ray: &Ray, range: Range<f32>) -> bool {
+    ///         self.sphere.may_hit(ray, range)
+    ///     }
+    ///
+    ///     fn as_sphere(&self) -> Option<Sphere> {
+    ///         self.sphere.as_sphere()
+    ///     }
+    /// }
+    ///
+    /// // The green ball begins 0.01 before the red one. From 1e6 away, both distances round to 1e6.
+    /// let ball = |z, color| Ball { sphere: Sphere::new(vec3(0.0, 0.0, z), 1.0), color };
+    /// let balls = [ball(-1.01, Vec3::X), ball(-1.0, Vec3::Y)];
+    /// let ray = Ray::new(vec3(0.0, 0.0, 1e6), Vec3::NEG_Z);
+    ///
+    /// let found = nearest(&balls, &ray, 0.0..f32::INFINITY);
+    /// assert_eq!(found.map(|(index, _)| balls[index].color), Some(Vec3::Y));
+    /// ```
     #[inline]
-    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32
+    fn as_sphere(&self) -> Option<Sphere<V>> {
+        None
+    }
+
+    /// Which of four objects [may be hit](Self::may_hit): the bit `1 << i` is that of `objects[i]`. Only this crate can call it or
+    /// implement it, so that it may change.
+    #[doc(hidden)]
+    #[inline]
+    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>, _: Crate) -> u32
     where
         Self: Sized,
     {
@@ -150,6 +196,12 @@ macro_rules! hittable_as_its_content {
             fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
                 let content: &$content = self;
                 content.may_hit(ray, range)
+            }
+
+            #[inline]
+            fn as_sphere(&self) -> Option<Sphere<V>> {
+                let content: &$content = self;
+                content.as_sphere()
             }
         }
     )+};
@@ -188,8 +240,10 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
 
 /// Returns the nearest hit among `objects` with `t` in `range`, and the index of the object hit.
 ///
-/// Of equal `t`, the lowest index is returned. Each object is tested in turn, first by [`may_hit`](Hittable::may_hit). For spheres in
-/// `f32`, `Spheres` and `SphereBvh` (feature `alloc`) return the same in less time.
+/// Of equal `t`, the sphere in front is returned: the exact roots are compared, and only where these are equal too, the lowest index
+/// is returned. For that, both objects must be spheres, or contain one that [`as_sphere`](Hittable::as_sphere) returns. Of other
+/// objects with equal `t`, the one with the lowest index is returned. Each object is tested in turn, first by
+/// [`may_hit`](Hittable::may_hit). For spheres, `Spheres` and `SphereBvh` (feature `alloc`) return the same in less time.
 ///
 /// Use it for picking: with the [`pixel_ray`](crate::Camera::pixel_ray) of the mouse, the index is that of the object below it.
 ///
@@ -217,12 +271,13 @@ pub fn nearest<V: Vector, H: Hittable<V>>(
     while let Some((index, object)) = candidates.next(ray, start..end) {
         // `black_box`, so that what only a hit needs of the ray is not computed ahead of the loop.
         if let Some(hit) = object.intersect(black_box(ray), start..end) {
-            // The range is half open: what comes later must be strictly nearer.
-            end = hit.t;
-            found = Some((index, hit));
+            if comes_first(ray, (index, object, &hit), found.as_ref()) {
+                end = next_above::<V>(hit.t);
+                found = Some((index, object, hit));
+            }
         }
     }
-    let (index, hit) = found?;
+    let (index, _, hit) = found?;
     Some((index, hit))
 }
 
@@ -238,14 +293,29 @@ pub(crate) fn nearest_among<'a, V: Vector, H: Hittable<V> + 'a>(
     let mut found = None;
     while let Some((index, object)) = next(end) {
         if let Some(hit) = object.intersect(ray, start..end) {
-            // The range is half open: what comes later must be strictly nearer.
-            end = hit.t;
-            found = Some((index, hit));
+            if comes_first(ray, (index, object, &hit), found.as_ref()) {
+                end = next_above::<V>(hit.t);
+                found = Some((index, object, hit));
+            }
         }
     }
     // Taken apart: otherwise it is in the caller's memory from the start, and each ray waits until the one before has written it.
-    let (index, hit) = found?;
+    let (index, _, hit) = found?;
     Some((index, hit))
+}
+
+/// Whether the hit of an object comes before the first so far. The range then ends just above its `t`, so that all that may tie
+/// is compared.
+#[inline(always)]
+fn comes_first<V: Vector, H: Hittable<V>>(
+    ray: &Ray<V>,
+    (index, object, hit): (usize, &H, &Hit<V>),
+    first: Option<&(usize, &H, Hit<V>)>,
+) -> bool {
+    first.is_none_or(|(first_index, first_object, first)| {
+        let spheres = || [object.as_sphere(), first_object.as_sphere()];
+        is_nearer(ray, (index, hit.t), (*first_index, first.t), spheres)
+    })
 }
 
 /// The objects that pass the first test, [`Hittable::may_hit`], by ascending index.
@@ -278,7 +348,7 @@ impl<'a, H> Candidates<'a, H> {
                 self.next = index + 1;
                 return Some((index, self.objects.get(index)?));
             };
-            self.passed = H::may_hit_four(four, ray, range.clone());
+            self.passed = H::may_hit_four(four, ray, range.clone(), Crate(()));
             self.next += 4;
         }
         let index = self.next - 4 + self.passed.trailing_zeros() as usize;

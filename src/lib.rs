@@ -112,6 +112,7 @@ mod hittable;
 mod ray;
 mod rejection;
 mod root;
+mod sealed;
 mod sphere;
 #[cfg(feature = "alloc")]
 mod spheres;

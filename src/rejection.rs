@@ -1,5 +1,6 @@
-//! Early rejection: a test in a few operations, in the scene's own precision, of whether a ray misses a sphere. A sphere that the ray
-//! misses may pass the test; a sphere that it hits is never rejected.
+//! Early rejection: a test in a few operations, in the scene's own precision, of whether a ray misses a sphere. A sphere that the
+//! ray misses may pass the test; a sphere that it hits is never rejected. The filter of the collections (`spheres::filter`) is
+//! the same test in `f32`, over many spheres at a time, of numbers that have been rounded before: one derivation is for both.
 //!
 //! A hit with t in (0, end) is a point of the segment from the ray's origin to `end`. So a sphere is rejected where that segment
 //! stays clear of its ball: where the point of the segment nearest to the center, at t = m, is farther from it than the radius.
@@ -24,35 +25,49 @@
 //! a end      a 3, a product                             is off by at most  4 u a end, and so T by 4 u T
 //! ```
 //!
-//! Now let the ray hit: o·o ≤ r² + T. With the distance q = m |d| to the point at m, that to the closest approach, h / |d| ≥ q, and
-//! that of the center from the line, at most r: |o| |d| m = q √((h / |d|)² + r²) ≤ h m + r² / 2 ≤ T + r² / 2. Together the errors
-//! are at most
+//! Now let the ray hit: o·o ≤ r² + T. With the distance q = m |d| to the point at m, that to the closest approach, h / |d| ≥ q,
+//! and that of the center from the line, at most r: |o| |d| m = q √((h / |d|)² + r²) ≤ h m + r² / 2 ≤ T + r² / 2. Together the
+//! errors are at most
 //!
 //! ```text
 //! 6 u (r² + T) + 3 u r² + 8 u (T + r² / 2) + 8 u T + 4 u T = 13 u r² + 26 u T
 //! ```
 //!
-//! So r² is made larger by `MARGIN`, 16 u, and T by twice that. The rest is far more than all terms of the second order.
+//! **Rounded numbers.** In the filter, c and p are relative to a center of the collection, and d is of any precision. Rounded to
+//! `f32`, c is off by at most u |c|, p by 1.25 u |p|, and d by u |d|. So where the ray hits at t, the rounded ray passes the
+//! rounded center within r + u |c| + 1.25 u |p| + u t |d|. There t |d| ≤ |o| + r, and |p| ≤ |c| + |o|:
+//!
+//! ```text
+//! r (1 + u) + 2.25 u |c| + 2.25 u |o| ≤ R (1 + u) + 2.25 u |o|,   R = r + 3 u |c|
+//! ```
+//!
+//! With R for the radius, the center counts no more. The square of the whole is at most R² + 2 u R² + 4.5 u R |o|, and with
+//! 2 R |o| ≤ R² + o·o ≤ 2 R² + T, at most R² (1 + 6.5 u) + 2.25 u T. With 13 u and 26 u, that makes 19.5 u R² + 28.25 u T.
+//!
+//! So r² is made larger by `MARGIN`, 24 u, and T by twice that. That leaves 4.5 u r² and 19.75 u T. All terms of the second order
+//! are together below 1,000 u² (r² + T), which is a 16,000th of u (r² + T).
 //!
 //! The last subtraction is only compared with a constant, which its rounding does not change.
 //!
 //! **Underflow.** For directions of length 2⁻³⁰ to 2⁶⁰ (in `f64`, 2⁻²⁵⁰ to 2⁵⁰⁰), a and 1 / a are normal numbers. A product that
 //! underflows has an additional error of up to 2⁻¹⁵⁰ (2⁻¹⁰⁷⁵). In h and in a end, this error is multiplied by 2 |o| / |d|, and in
-//! s / a by 2 |o| |d|: together less than 2⁻⁸⁸ |o| (2⁻⁵⁷³ |o|). If |o| < 2⁻¹² (2⁻⁴⁰⁰), this and the errors of the squares are less
-//! than `LEAST`, which the result has to exceed. Otherwise they are far below u o·o. For all other directions, 1 / a is set to NaN,
-//! so that nothing is rejected.
+//! s / a by 2 |o| |d|: together less than 2⁻⁸⁸ |o| (2⁻⁵⁷³ |o|). If |o| < 2⁻¹² (2⁻⁴⁰⁰), this and the errors of the squares are
+//! less than `LEAST`, which the result has to exceed. Otherwise they are far below u o·o. For all other directions, 1 / a is set
+//! to NaN, so that nothing is rejected.
 //!
-//! **Overflow and NaN.** T is never negative where `end` is positive. So overflow in h or T makes the result -∞ or NaN, and so does an
-//! infinite radius. Overflow in o·o makes it +∞ or NaN. Only a finite result rejects. Where `end` is not positive there is no hit,
-//! and either answer is right. A negative radius is treated as its absolute value: the exact routine returns no hit.
+//! **Overflow and NaN.** T is never negative where `end` is positive. So overflow in h or T makes the result -∞ or NaN, and so
+//! does an infinite radius. Overflow in o·o makes it +∞ or NaN. Only a finite result rejects. Where `end` is not positive there
+//! is no hit, and either answer is right. What is not rejected so is looked at again: a sphere with a NaN, an infinity or a
+//! negative radius, which nothing hits, is rejected at last.
 
 use glam::{DVec3, Mat4, Vec3, Vec4};
 
+use crate::sealed::{Internal, Operation};
 use crate::{Ray, Scalar, Sphere, Vector};
 
 /// The constants of the derivation above in a precision.
 pub trait Bounds: Sized {
-    /// The relative increase of r², and half that of T: 16 u.
+    /// The relative increase of r², and half that of T: 24 u.
     const MARGIN: Self;
     /// The bound that the result has to exceed: more than the errors by underflow.
     const LEAST: Self;
@@ -63,7 +78,7 @@ pub trait Bounds: Sized {
 }
 
 impl Bounds for f32 {
-    const MARGIN: Self = 8.0 * f32::EPSILON;
+    const MARGIN: Self = 12.0 * f32::EPSILON;
     const LEAST: Self = f32::from_bits((127 - 99) << 23); // 2^-99
     const SQUARES: [Self; 2] =
         [f32::from_bits((127 - 60) << 23), f32::from_bits((127 + 120) << 23)];
@@ -71,7 +86,7 @@ impl Bounds for f32 {
 }
 
 impl Bounds for f64 {
-    const MARGIN: Self = 8.0 * f64::EPSILON;
+    const MARGIN: Self = 12.0 * f64::EPSILON;
     const LEAST: Self = f64::from_bits((1023 - 970) << 52); // 2^-970
     const SQUARES: [Self; 2] =
         [f64::from_bits((1023 - 500) << 52), f64::from_bits((1023 + 1000) << 52)];
@@ -82,11 +97,17 @@ impl Bounds for f64 {
 pub(crate) const HAS_VECTORS: bool =
     cfg!(any(target_feature = "sse2", target_feature = "neon", target_feature = "simd128"));
 
+/// Whether the sphere is one that a ray can hit: not so if it has a NaN, an infinity or a negative radius.
+pub(crate) fn can_be_hit<V: Vector>(sphere: &Sphere<V>) -> bool {
+    let radius = sphere.radius;
+    sphere.center.to_f64().is_finite() && radius >= V::Scalar::ZERO && radius < V::Scalar::INFINITY
+}
+
 /// Whether the ray may hit the sphere before `end`.
 // Inlined always, as all here: so that a loop computes once what is the ray's.
 #[inline(always)]
 pub(crate) fn may_hit<V: Vector>(sphere: &Sphere<V>, ray: &Ray<V>, end: V::Scalar) -> bool {
-    may_hit_within(V::Scalar::MARGIN, sphere, ray, end)
+    V::perform(One { sphere, ray, end })
 }
 
 /// Which of the spheres the ray may hit before `end`: the bit `1 << i` is that of `spheres[i]`.
@@ -96,7 +117,45 @@ pub(crate) fn may_hit_four<V: Vector>(
     ray: &Ray<V>,
     end: V::Scalar,
 ) -> u32 {
-    V::may_hit_four_within(V::Scalar::MARGIN, spheres, ray, end)
+    V::perform(Four { spheres, ray, end })
+}
+
+/// [`may_hit`].
+struct One<'a, V: Vector> {
+    sphere: &'a Sphere<V>,
+    ray: &'a Ray<V>,
+    end: V::Scalar,
+}
+
+impl<V: Vector> Operation<V> for One<'_, V> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool
+    where
+        V: Internal,
+    {
+        may_hit_within(V::Scalar::MARGIN, self.sphere, self.ray, self.end)
+    }
+}
+
+/// [`may_hit_four`].
+struct Four<'a, V: Vector> {
+    spheres: [&'a Sphere<V>; 4],
+    ray: &'a Ray<V>,
+    end: V::Scalar,
+}
+
+impl<V: Vector> Operation<V> for Four<'_, V> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run(self) -> u32
+    where
+        V: Internal,
+    {
+        V::may_hit_four_within(V::Scalar::MARGIN, self.spheres, self.ray, self.end)
+    }
 }
 
 /// The rejection in a precision.
@@ -134,7 +193,8 @@ impl Rejection for Vec3 {
             return 0;
         }
         let s = h.max(Vec4::ZERO).min(Vec4::splat(a * end));
-        0b1111 & !(beside | are_clear(power - s * one_over_a * ((h - s) + h)))
+        let near = 0b1111 & !(beside | are_clear(power - s * one_over_a * ((h - s) + h)));
+        if near == 0 { 0 } else { near & can_be_hit_four(spheres) }
     }
 }
 
@@ -168,8 +228,9 @@ impl Rejection for DVec3 {
         }
         let mut near = 0;
         for i in 0..4 {
-            let may_hit =
-                !is_clear(beside[i]) && is_near_segment(power[i], h[i], [a, one_over_a], end);
+            let may_hit = !is_clear(beside[i])
+                && is_near_segment(power[i], h[i], [a, one_over_a], end)
+                && can_be_hit(spheres[i]);
             near |= u32::from(may_hit) << i;
         }
         near
@@ -177,7 +238,7 @@ impl Rejection for DVec3 {
 }
 
 #[inline(always)]
-fn may_hit_within<V: Vector>(
+fn may_hit_within<V: Internal>(
     margin: V::Scalar,
     sphere: &Sphere<V>,
     ray: &Ray<V>,
@@ -188,12 +249,24 @@ fn may_hit_within<V: Vector>(
     let power = o.dot(o) - sphere.radius * sphere.radius * (V::Scalar::ONE + margin);
     let h = ray.direction.dot(o);
     // Most spheres are beside the line.
-    !is_clear(power - h * one_over_a * h) && is_near_segment(power, h, [a, one_over_a], end)
+    !is_clear(power - h * one_over_a * h)
+        && is_near_segment(power, h, [a, one_over_a], end)
+        && can_be_hit(sphere)
+}
+
+/// Which of four spheres can be hit, a bit for each.
+#[inline(always)]
+fn can_be_hit_four<V: Vector>(spheres: [&Sphere<V>; 4]) -> u32 {
+    let mut bits = 0;
+    for (place, sphere) in spheres.iter().enumerate() {
+        bits |= u32::from(can_be_hit(sphere)) << place;
+    }
+    bits
 }
 
 /// Whether the segment up to `end` may come as near as the radius.
 #[inline(always)]
-fn is_near_segment<S: Scalar>(power: S, h: S, [a, one_over_a]: [S; 2], end: S) -> bool {
+fn is_near_segment<S: Scalar + Bounds>(power: S, h: S, [a, one_over_a]: [S; 2], end: S) -> bool {
     let longest = a * end;
     // Comparisons that are one instruction each: `f32::clamp` looks for NaN.
     let s = if h > S::ZERO { h } else { S::ZERO };
@@ -203,13 +276,13 @@ fn is_near_segment<S: Scalar>(power: S, h: S, [a, one_over_a]: [S; 2], end: S) -
 
 /// Whether such a result rejects.
 #[inline(always)]
-fn is_clear<S: Scalar>(clearance: S) -> bool {
+fn is_clear<S: Scalar + Bounds>(clearance: S) -> bool {
     clearance > S::LEAST && clearance < S::INFINITY
 }
 
 /// a, and 1 / a increased by twice the margin, or NaN for unusual directions.
 #[inline(always)]
-fn squares<V: Vector>(margin: V::Scalar, ray: &Ray<V>) -> [V::Scalar; 2] {
+fn squares<V: Internal>(margin: V::Scalar, ray: &Ray<V>) -> [V::Scalar; 2] {
     let a = ray.direction.dot(ray.direction);
     let [least, largest] = V::Scalar::SQUARES;
     let is_usual = a >= least && a <= largest;
@@ -224,7 +297,7 @@ mod tests {
     use crate::Hittable;
 
     /// How many of the hits of random rays that graze a sphere, or end where they meet it, are rejected with that margin.
-    fn rejected<V: Vector>(margin: V::Scalar, above: fn(V::Scalar) -> V::Scalar) -> u32 {
+    fn rejected<V: Internal>(margin: V::Scalar, above: fn(V::Scalar) -> V::Scalar) -> u32 {
         const CASES: u32 = 60_000;
         let empty = Sphere::new(V::from_f64(DVec3::splat(1e6)), V::Scalar::ZERO);
         let mut hits = 0;

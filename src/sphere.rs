@@ -1,5 +1,6 @@
 //! The sphere.
 
+use core::marker::PhantomData;
 use core::ops::Range;
 
 use glam::DVec3;
@@ -8,6 +9,8 @@ use crate::algebraic::Quadratic;
 use crate::arithmetic::pair::{Pair, two_difference};
 use crate::arithmetic::rounding::RoundDown;
 use crate::geometric::ClosestApproach;
+use crate::root::chord::Derivation;
+use crate::sealed::{Crate, Internal, Operation};
 use crate::{Hit, Hittable, Ray, Vector, rejection};
 
 /// A sphere: a center and a radius.
@@ -48,6 +51,8 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 ///    back along the ray.
 /// 7. A ray of [`Hit::spawn`] never hits the surface that it leaves, if the radius is at least 1,000 ulp of the coordinates of the
 ///    point. It starts no farther from it than stated at [`spawn`](Hit::spawn).
+/// 8. Of many spheres, the one returned is that whose exact root is least among those accepted by point 5, also where distances round
+///    to the same number; of equal exact roots, the one of the lowest index: [`nearest`](crate::nearest) tells among what.
 ///
 /// # How
 ///
@@ -89,19 +94,29 @@ impl<V: Vector> Sphere<V> {
     /// assert!(f64::from(high.x) >= 0.5 + f64::from(sphere.radius));
     /// ```
     pub fn bounds(&self) -> (V, V) {
-        let center = self.center.to_f64();
-        let radius: f64 = self.radius.into();
-        if !(center.is_finite() && (0.0..f64::INFINITY).contains(&radius)) {
-            return (V::from_f64(DVec3::INFINITY), V::from_f64(DVec3::NEG_INFINITY));
-        }
-        // Upwards is downwards in the mirror.
-        let round_down = |center: DVec3| {
-            V::from_f64(DVec3::from_array(center.to_array().map(|c| {
-                let Pair { hi, lo } = two_difference(c, radius);
-                V::Scalar::round_down(hi, lo).into()
-            })))
-        };
-        (round_down(center), -round_down(-center))
+        V::perform(Bounds(self))
+    }
+
+    /// Returns both roots along the whole line, ascending, behind the origin too. `None` where the line misses.
+    ///
+    /// Use this one: it takes the faster of the two derivations. [`roots_algebraic`](Self::roots_algebraic) and
+    /// [`roots_geometric`](Self::roots_geometric) return the same, bit for bit, and are for comparing them.
+    ///
+    /// ```
+    /// use eyeray::{Ray, Sphere};
+    /// use glam::Vec3;
+    ///
+    /// let sphere = Sphere::new(Vec3::ZERO, 1.0);
+    /// let ray = Ray::new(Vec3::Z * 3.0, Vec3::NEG_Z);
+    /// assert_eq!(sphere.roots(&ray), Some([2.0, 4.0]));
+    ///
+    /// // A ray starts inside a sphere if and only if its roots lie on either side of 0.
+    /// let is_inside = |[near, far]: [f32; 2]| near < 0.0 && 0.0 < far;
+    /// assert_eq!(sphere.roots(&ray).map(is_inside), Some(false));
+    /// ```
+    #[inline(always)]
+    pub fn roots(&self, ray: &Ray<V>) -> Option<[V::Scalar; 2]> {
+        self.roots_by::<Quadratic>(ray)
     }
 
     /// Returns both roots along the whole line, ascending, behind the origin too, by the quadratic formula: see
@@ -117,7 +132,7 @@ impl<V: Vector> Sphere<V> {
     /// ```
     #[inline(always)]
     pub fn roots_algebraic(&self, ray: &Ray<V>) -> Option<[V::Scalar; 2]> {
-        V::roots::<Quadratic>(self, ray)
+        self.roots_by::<Quadratic>(ray)
     }
 
     /// Returns both roots along the whole line, ascending, behind the origin too, by the closest approach: see
@@ -134,7 +149,23 @@ impl<V: Vector> Sphere<V> {
     /// ```
     #[inline(always)]
     pub fn roots_geometric(&self, ray: &Ray<V>) -> Option<[V::Scalar; 2]> {
-        V::roots::<ClosestApproach>(self, ray)
+        self.roots_by::<ClosestApproach>(ray)
+    }
+
+    /// Where the ray meets the sphere first, by that derivation.
+    #[inline(always)]
+    pub(crate) fn intersect_by<D: Derivation>(
+        &self,
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> Option<Hit<V>> {
+        V::perform(Intersection { sphere: self, ray, range, derivation: PhantomData::<D> })
+    }
+
+    /// Both roots, by that derivation.
+    #[inline(always)]
+    fn roots_by<D: Derivation>(&self, ray: &Ray<V>) -> Option<[V::Scalar; 2]> {
+        V::perform(Roots { sphere: self, ray, derivation: PhantomData::<D> })
     }
 }
 
@@ -142,7 +173,7 @@ impl<V: Vector> Hittable<V> for Sphere<V> {
     #[inline(always)]
     fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>> {
         // The faster of the two derivations where neither is in doubt.
-        V::intersect::<Quadratic>(self, ray, range)
+        self.intersect_by::<Quadratic>(ray, range)
     }
 
     #[inline(always)]
@@ -151,7 +182,78 @@ impl<V: Vector> Hittable<V> for Sphere<V> {
     }
 
     #[inline(always)]
-    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>) -> u32 {
+    fn as_sphere(&self) -> Option<Sphere<V>> {
+        Some(*self)
+    }
+
+    #[inline(always)]
+    fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>, _: Crate) -> u32 {
         rejection::may_hit_four(objects.each_ref(), ray, range.end)
+    }
+}
+
+/// [`Sphere::intersect_by`].
+struct Intersection<'a, V: Vector, D> {
+    sphere: &'a Sphere<V>,
+    ray: &'a Ray<V>,
+    range: Range<V::Scalar>,
+    derivation: PhantomData<D>,
+}
+
+impl<V: Vector, D: Derivation> Operation<V> for Intersection<'_, V, D> {
+    type Output = Option<Hit<V>>;
+
+    #[inline(always)]
+    fn run(self) -> Option<Hit<V>>
+    where
+        V: Internal,
+    {
+        V::intersect::<D>(self.sphere, self.ray, self.range)
+    }
+}
+
+/// [`Sphere::roots_by`].
+struct Roots<'a, V: Vector, D> {
+    sphere: &'a Sphere<V>,
+    ray: &'a Ray<V>,
+    derivation: PhantomData<D>,
+}
+
+impl<V: Vector, D: Derivation> Operation<V> for Roots<'_, V, D> {
+    type Output = Option<[V::Scalar; 2]>;
+
+    #[inline(always)]
+    fn run(self) -> Option<[V::Scalar; 2]>
+    where
+        V: Internal,
+    {
+        V::roots::<D>(self.sphere, self.ray)
+    }
+}
+
+/// [`Sphere::bounds`].
+struct Bounds<'a, V: Vector>(&'a Sphere<V>);
+
+impl<V: Vector> Operation<V> for Bounds<'_, V> {
+    type Output = (V, V);
+
+    fn run(self) -> (V, V)
+    where
+        V: Internal,
+    {
+        let Self(sphere) = self;
+        let center = sphere.center.to_f64();
+        let radius: f64 = sphere.radius.into();
+        if !(center.is_finite() && (0.0..f64::INFINITY).contains(&radius)) {
+            return (V::from_f64(DVec3::INFINITY), V::from_f64(DVec3::NEG_INFINITY));
+        }
+        // Upwards is downwards in the mirror.
+        let round_down = |center: DVec3| {
+            V::from_f64(DVec3::from_array(center.to_array().map(|c| {
+                let Pair { hi, lo } = two_difference(c, radius);
+                V::Scalar::round_down(hi, lo).into()
+            })))
+        };
+        (round_down(center), -round_down(-center))
     }
 }

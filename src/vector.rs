@@ -5,14 +5,12 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use crate::arithmetic::rounding::RoundDown;
-use crate::rejection::{Bounds, Rejection};
-use crate::root::precision::Precision;
+use crate::sealed::{Sealed, SealedScalar};
 
 /// A glam vector of three dimensions: [`Vec3`](glam::Vec3) or [`DVec3`](glam::DVec3).
 ///
-/// Use it to write a function for both precisions. The trait is sealed, because the contract of this crate is proved for these two
-/// types only.
+/// Use it to write a function for both precisions. The trait is sealed, because the contract of this crate is proved for these
+/// two types only.
 ///
 /// ```
 /// use eyeray::{Ray, Vector};
@@ -26,8 +24,7 @@ use crate::root::precision::Precision;
 /// assert_eq!(tip(&ray), glam::dvec3(2.0, 2.0, 3.0));
 /// ```
 pub trait Vector:
-    Precision
-    + Rejection
+    Sealed
     + Copy
     + Debug
     + Default
@@ -45,6 +42,9 @@ pub trait Vector:
 
     /// The vector of two dimensions of the same precision, for points of the view plane and for pixels.
     type Vec2: Copy + Debug + Default + PartialEq + Send + Sync + 'static;
+
+    /// The zero vector.
+    const ZERO: Self;
 
     /// Converts the vector to `f64`, exactly.
     fn to_f64(self) -> DVec3;
@@ -67,8 +67,7 @@ pub trait Vector:
 ///
 /// The trait is sealed, as [`Vector`] is.
 pub trait Scalar:
-    RoundDown
-    + Bounds
+    SealedScalar
     + Copy
     + Debug
     + Display
@@ -123,6 +122,8 @@ impl Vector for Vec3 {
     type Scalar = f32;
     type Vec2 = Vec2;
 
+    const ZERO: Self = Self::ZERO;
+
     #[inline]
     fn to_f64(self) -> DVec3 {
         self.as_dvec3()
@@ -152,6 +153,8 @@ impl Vector for Vec3 {
 impl Vector for DVec3 {
     type Scalar = f64;
     type Vec2 = DVec2;
+
+    const ZERO: Self = Self::ZERO;
 
     #[inline]
     fn to_f64(self) -> DVec3 {

@@ -366,3 +366,18 @@ fn a_lamp_is_not_in_its_own_way() {
         (ground.to_f32(), lamp.to_f32(), ray.to_f32(), sample.as_vec3())
     });
 }
+
+#[test]
+fn through_the_worlds_origin_from_next_to_it() {
+    // A product of the radius and what is left underflows: the origin is not on the surface.
+    let tiny = 2_f64.powi(-1000);
+    let sphere = Sphere::new(DVec3::X * 2_f64.powi(-100), 2_f64.powi(-100));
+    let found = nearest_hit(&Ray::new(DVec3::X * tiny, DVec3::NEG_X), &sphere);
+    assert_eq!(found.map(|hit| hit.t), Some(tiny));
+    let found = nearest_hit(&Ray::new(DVec3::X * -tiny, DVec3::X), &sphere);
+    assert_eq!(found.map(|hit| hit.t), Some(tiny));
+    // The far root is close to the midpoint of two numbers.
+    let radius = 2_f64.powi(-100) * (1.0 - f64::EPSILON / 2.0);
+    let sphere = Sphere::new(DVec3::X * 2_f64.powi(-99), radius);
+    assert!(nearest_hit(&Ray::new(DVec3::X * -tiny, DVec3::X), &sphere).is_some());
+}

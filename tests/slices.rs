@@ -11,9 +11,10 @@ use proptest::prelude::*;
 mod support;
 
 use support::families::{Case, FAMILIES, Rng};
+use support::oracle::{Coordinates, Truth};
 
 /// A precision whose hits can be compared.
-trait Compared: Vector {
+trait Compared: Coordinates {
     fn case(family: usize, rng: &mut Rng) -> Case<Self>;
     /// All numbers of a hit: -0.0 is not 0.0 here.
     fn bits(hit: &Hit<Self>) -> [u64; 8];
@@ -52,8 +53,9 @@ macro_rules! compared {
 compared!(Vec3, f32);
 compared!(DVec3, f64);
 
-/// The nearest by the spheres' own `intersect`: of equal t the lowest index.
-fn by_loop<V: Vector, H: Hittable<V>>(
+/// The nearest by the spheres' own `intersect`: of equal t by the exact roots, and of these by the lowest index.
+fn by_loop<V: Compared, H: Hittable<V>>(
+    spheres: &[Sphere<V>],
     objects: &[H],
     ray: &Ray<V>,
     range: &Range<V::Scalar>,
@@ -61,7 +63,16 @@ fn by_loop<V: Vector, H: Hittable<V>>(
     let mut found: Option<(usize, Hit<V>)> = None;
     for (index, object) in objects.iter().enumerate() {
         if let Some(hit) = object.intersect(ray, range.clone()) {
-            if found.is_none_or(|(_, nearest)| hit.t < nearest.t) {
+            let is_in_front = |first: usize| {
+                let roots = [index, first].map(|index| {
+                    let [near, far] = Truth::new(ray, &spheres[index]).expect("it is hit").roots;
+                    if near.nearest::<V::Scalar>() == hit.t { near } else { far }
+                });
+                spheres[index] != spheres[first] && roots[0].order(&roots[1]).is_lt()
+            };
+            if found.is_none_or(|(first, nearest)| {
+                hit.t < nearest.t || (hit.t == nearest.t && is_in_front(first))
+            }) {
                 found = Some((index, hit));
             }
         }
@@ -71,11 +82,12 @@ fn by_loop<V: Vector, H: Hittable<V>>(
 
 #[track_caller]
 fn assert_same_as_loop<V: Compared, H: Hittable<V>>(
+    spheres: &[Sphere<V>],
     objects: &[H],
     ray: &Ray<V>,
     range: &Range<V::Scalar>,
 ) -> Option<(usize, Hit<V>)> {
-    let expected = by_loop(objects, ray, range);
+    let expected = by_loop(spheres, objects, ray, range);
     let bits = |found: Option<(usize, Hit<V>)>| found.map(|(index, hit)| (index, V::bits(&hit)));
     let found = nearest(objects, ray, range.clone());
     assert_eq!(bits(found), bits(expected), "{} objects, {ray:?}, {range:?}", objects.len());
@@ -97,10 +109,10 @@ fn assert_same_in_all<V: Compared>(
     let algebraic: Vec<_> = spheres.iter().copied().map(Algebraic).collect();
     let geometric: Vec<_> = spheres.iter().copied().map(Geometric).collect();
     let objects: Vec<&dyn Hittable<V>> = spheres.iter().map(|sphere| sphere as _).collect();
-    assert_same_as_loop(&algebraic, ray, range);
-    assert_same_as_loop(&geometric, ray, range);
-    assert_same_as_loop(&objects, ray, range);
-    assert_same_as_loop(spheres, ray, range)
+    assert_same_as_loop(spheres, &algebraic, ray, range);
+    assert_same_as_loop(spheres, &geometric, ray, range);
+    assert_same_as_loop(spheres, &objects, ray, range);
+    assert_same_as_loop(spheres, spheres, ray, range)
 }
 
 /// Numbers that a scene should not have.
@@ -195,12 +207,17 @@ fn finds_every_sphere_alone<V: Compared>(rng: &mut Rng, ray: &Ray<V>, sphere: Sp
     let nothing = Sphere::new(sphere.center, -V::Scalar::ONE);
     let mut spheres = [nothing; 7];
     spheres[usize::try_from(rng.below(7)).unwrap_or(0)] = sphere;
-    let found = assert_same_as_loop(&spheres, ray, &(V::Scalar::ZERO..infinity));
+    let found = assert_same_as_loop(&spheres, &spheres, ray, &(V::Scalar::ZERO..infinity));
     if let Some((_, hit)) = found {
-        assert_same_as_loop(&spheres, ray, &(V::Scalar::ZERO..V::above(hit.t)));
-        assert_same_as_loop(&spheres, ray, &(hit.t..infinity));
+        assert_same_as_loop(&spheres, &spheres, ray, &(V::Scalar::ZERO..V::above(hit.t)));
+        assert_same_as_loop(&spheres, &spheres, ray, &(hit.t..infinity));
         for direction in [hit.normal, -hit.normal, ray.direction] {
-            assert_same_as_loop(&spheres, &hit.spawn(direction), &(V::Scalar::ZERO..infinity));
+            assert_same_as_loop(
+                &spheres,
+                &spheres,
+                &hit.spawn(direction),
+                &(V::Scalar::ZERO..infinity),
+            );
         }
     }
     found.is_some()

@@ -1,23 +1,29 @@
 //! `Spheres` and `SphereBvh` as collections, and against the slice of the same spheres. The unit tests of the crate do the latter
 //! with every set of instructions and on harder scenes.
 
+use std::fmt::Debug;
 use std::ops::Range;
 
-use eyeray::{Hit, Hittable, Ray, Sphere, SphereBvh, Spheres, nearest};
-use glam::{Vec3, vec3};
+use eyeray::{Hit, Hittable, Ray, Scalar, Sphere, SphereBvh, Spheres, Vector, nearest};
+use glam::{DVec3, Vec3, dvec3, vec3};
 use proptest::prelude::*;
 
 /// A hit as bits: -0.0 is not 0.0 here.
-fn bits(found: Option<(usize, Hit)>) -> Option<(usize, [u32; 7], Hit)> {
+fn bits<V: Vector>(found: Option<(usize, Hit<V>)>) -> Option<(usize, [u64; 7], Hit<V>)> {
     found.map(|(index, hit)| {
-        let [a, b, c] = hit.point.to_array();
-        let [d, e, f] = hit.normal.to_array();
-        (index, [hit.t, a, b, c, d, e, f].map(f32::to_bits), hit)
+        let [a, b, c] = hit.point.to_f64().to_array();
+        let [d, e, f] = hit.normal.to_f64().to_array();
+        (index, [hit.t.into(), a, b, c, d, e, f].map(f64::to_bits), hit)
     })
 }
 
 #[track_caller]
-fn assert_same_as_slice(slice: &[Sphere], spheres: &Spheres, ray: &Ray, range: &Range<f32>) {
+fn assert_same_as_slice<V: Vector>(
+    slice: &[Sphere<V>],
+    spheres: &Spheres<V>,
+    ray: &Ray<V>,
+    range: &Range<V::Scalar>,
+) {
     let expected = bits(nearest(slice, ray, range.clone()));
     let bvh = SphereBvh::from(spheres.clone());
     let context = || format!("{} spheres, {ray:?}, {range:?}", slice.len());
@@ -78,7 +84,7 @@ fn keeps_what_it_is_given() {
     assert!(more.is_empty() && more.nearest(&ray, 0.0..f32::INFINITY).is_none());
     more.push(Sphere::new(Vec3::X, 0.5));
     assert_same_as_slice(&[Sphere::new(Vec3::X, 0.5)], &more, &ray, &(0.0..f32::INFINITY));
-    assert_eq!(Spheres::default().len(), 0);
+    assert_eq!(Spheres::<Vec3>::default().len(), 0);
 }
 
 /// A sphere of every length of a row.
@@ -129,23 +135,76 @@ fn is_a_collection() {
         assert_eq!(format!("{bvh:?}"), format!("{:?}", row(count)));
         assert_eq!(format!("{:#?}", bvh.clone()), format!("{:#?}", row(count)));
     }
-    assert!(SphereBvh::default().is_empty());
+    assert!(SphereBvh::<Vec3>::default().is_empty());
+}
+
+/// The ways to make a collection and to take it apart.
+fn is_made_and_taken_apart<V: Vector>(spheres: [Sphere<V>; 3]) {
+    let slice = spheres.as_slice();
+    let expected = Spheres::from(slice.to_vec());
+    assert_eq!(Spheres::from(spheres), expected);
+    assert_eq!(Spheres::from(slice), expected);
+    assert_eq!(slice.iter().collect::<Spheres<V>>(), expected);
+    assert_eq!(slice.iter().copied().collect::<Spheres<V>>(), expected);
+    let mut extended = Spheres::new();
+    extended.extend(&slice[..1]);
+    extended.extend(slice[1..].iter().copied());
+    assert_eq!(extended, expected);
+    assert!(expected.clone().into_iter().eq(spheres));
+
+    let bvh = SphereBvh::from(expected);
+    assert_eq!(SphereBvh::from(spheres), bvh);
+    assert_eq!(SphereBvh::from(slice), bvh);
+    assert_eq!(SphereBvh::from(slice.to_vec()), bvh);
+    assert_eq!(slice.iter().collect::<SphereBvh<V>>(), bvh);
+    assert_ne!(SphereBvh::from(&slice[..2]), bvh);
+}
+
+#[test]
+fn are_made_and_taken_apart() {
+    is_made_and_taken_apart([1.0, 2.0, 3.0].map(|radius| Sphere::new(Vec3::X, radius)));
+    is_made_and_taken_apart([1.0, 2.0, 3.0].map(|radius| Sphere::new(DVec3::X, radius)));
 }
 
 /// The hierarchy handles spheres that no ray can hit, and more large spheres than it keeps apart.
-#[test]
-fn hostile_scenes_are_sorted_too() {
-    let ray = Ray::new(Vec3::NEG_X * 9.0, Vec3::X);
+fn hostile_scenes_are_sorted_too<V: Vector>(largest: V::Scalar) {
+    let ray = Ray::new(V::from_f64(DVec3::NEG_X * 9.0), V::from_f64(DVec3::X));
+    let largest_vector = V::from_f64(DVec3::splat(largest.into()));
     for sphere in [
-        Sphere::new(Vec3::NAN, 1.0),
-        Sphere::new(Vec3::ZERO, -1.0),
-        Sphere::new(Vec3::ZERO, f32::MAX),
-        Sphere::new(Vec3::MAX, f32::MAX),
-        Sphere::new(Vec3::ZERO, 1.0),
+        Sphere::new(V::from_f64(DVec3::NAN), V::Scalar::ONE),
+        Sphere::new(V::ZERO, -V::Scalar::ONE),
+        Sphere::new(V::ZERO, largest),
+        Sphere::new(largest_vector, largest),
+        Sphere::new(V::ZERO, V::Scalar::ONE),
     ] {
         let slice = vec![sphere; 1000];
         let spheres = Spheres::from(slice.clone());
-        assert_same_as_slice(&slice, &spheres, &ray, &(0.0..f32::INFINITY));
+        assert_same_as_slice(&slice, &spheres, &ray, &(V::Scalar::ZERO..V::Scalar::INFINITY));
+    }
+}
+
+#[test]
+fn hostile_scenes_are_sorted_too_in_both_precisions() {
+    hostile_scenes_are_sorted_too::<Vec3>(f32::MAX);
+    hostile_scenes_are_sorted_too::<DVec3>(f64::MAX);
+}
+
+/// A scene that changes until it is elsewhere, sphere by sphere.
+#[test]
+fn changes_until_it_is_elsewhere() {
+    let mut slice: Vec<Sphere<DVec3>> = (0..100_u8)
+        .map(|i| Sphere::new(dvec3(f64::from(i % 10), f64::from(i / 10), 0.0), 0.25))
+        .collect();
+    let mut spheres = Spheres::from(slice.as_slice());
+    let away = dvec3(1e11, 5e10, -3e10);
+    for turn in 0..3 {
+        for index in 0..slice.len() {
+            slice[index].center += away;
+            assert!(spheres.set(index, slice[index]).is_some());
+            let target = slice[index * 7 % slice.len()].center;
+            let ray = Ray::new(target + DVec3::Z * 10.0_f64.powi(turn + 1), DVec3::NEG_Z);
+            assert_same_as_slice(&slice, &spheres, &ray, &(0.0..f64::INFINITY));
+        }
     }
 }
 
@@ -176,23 +235,52 @@ fn number() -> impl Strategy<Value = f32> {
     ]
 }
 
-fn vector() -> impl Strategy<Value = Vec3> {
-    [number(), number(), number()].prop_map(Vec3::from_array)
+/// Any f64 likewise.
+fn double() -> impl Strategy<Value = f64> {
+    prop_oneof![any::<u64>().prop_map(f64::from_bits), number().prop_map(f64::from)]
+}
+
+fn vector<V: Vector>(number: impl Strategy<Value = V::Scalar> + Clone) -> impl Strategy<Value = V> {
+    [number.clone(), number.clone(), number]
+        .prop_map(|numbers| V::from_f64(numbers.map(Into::into).into()))
+}
+
+/// Up to 70 spheres, a ray, and both ends of a range.
+type Question<V, S> = (Vec<(V, S)>, (V, V), (S, S));
+
+fn question<V: Vector, N: Strategy<Value = V::Scalar> + Clone + 'static>(
+    number: fn() -> N,
+) -> impl Strategy<Value = Question<V, V::Scalar>>
+where
+    V::Scalar: Debug,
+{
+    let vector = || vector::<V>(number());
+    (
+        prop::collection::vec((vector(), number()), 0..=70),
+        (vector(), vector()),
+        (number(), number()),
+    )
+}
+
+fn equals_the_slice<V: Vector>((slice, ray, (start, end)): Question<V, V::Scalar>) {
+    let slice: Vec<Sphere<V>> =
+        slice.into_iter().map(|(center, radius)| Sphere::new(center, radius)).collect();
+    let spheres: Spheres<V> = slice.iter().collect();
+    let ray = Ray::new(ray.0, ray.1);
+    let (zero, infinity) = (V::Scalar::ZERO, V::Scalar::INFINITY);
+    for range in [zero..infinity, start..end, start..infinity, zero..end] {
+        assert_same_as_slice(&slice, &spheres, &ray, &range);
+    }
 }
 
 proptest! {
     #[test]
-    fn equals_the_slice_on_random_numbers(
-        slice in prop::collection::vec((vector(), number()), 0..=70),
-        (origin, direction) in (vector(), vector()),
-        (start, end) in (number(), number()),
-    ) {
-        let slice: Vec<Sphere> =
-            slice.into_iter().map(|(center, radius)| Sphere::new(center, radius)).collect();
-        let spheres: Spheres = slice.iter().copied().collect();
-        let ray = Ray::new(origin, direction);
-        for range in [0.0..f32::INFINITY, start..end, start..f32::INFINITY, 0.0..end] {
-            assert_same_as_slice(&slice, &spheres, &ray, &range);
-        }
+    fn equals_the_slice_on_random_numbers(question in question::<Vec3, _>(|| number().boxed())) {
+        equals_the_slice(question);
+    }
+
+    #[test]
+    fn equals_the_slice_on_random_doubles(question in question::<DVec3, _>(|| double().boxed())) {
+        equals_the_slice(question);
     }
 }

@@ -1,10 +1,10 @@
 //! Comparisons of magnitudes on their bits: without multiplications, and without comparing floats, either of which takes many
 //! instructions where `f64` is computed in software.
 //!
-//! As an integer, the bits of a positive number are 2⁵² times its logarithm to the base 2 and a constant, with straight lines between
-//! the powers of two (Mitchell, *Computer Multiplication and Division Using Binary Logarithms*, 1962): of (1 + x) 2ᵉ, e + x. That of a
-//! product is no less than the sum of those of its factors: with x and y, it is above the sum by x y where that makes less than 2, and
-//! else by (1 - x) (1 - y) / 2.
+//! As an integer, the bits of a positive number are 2⁵² times its logarithm to the base 2 and a constant, with straight lines
+//! between the powers of two (Mitchell, *Computer Multiplication and Division Using Binary Logarithms*, 1962): of (1 + x) 2ᵉ, e +
+//! x. That of a product is no less than the sum of those of its factors: with x and y, it is above the sum by x y where that
+//! makes less than 2, and else by (1 - x) (1 - y) / 2.
 
 #[cfg(test)]
 mod tests;

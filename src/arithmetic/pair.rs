@@ -76,7 +76,10 @@ pub(crate) fn two_difference(a: f64, b: f64) -> Pair {
     two_sum(a, -b)
 }
 
-/// `a + b`, exactly, where |a| ≥ |b| or a = 0 (Dekker's fast two-sum).
+/// `a + b`, exactly, where |a| ≥ |b|, or a is a multiple of the last place of b (Dekker's fast two-sum).
+///
+/// For the second, let g be that place and |a| < |b| < 2⁵³ g. Then a + b is a multiple of g below 2⁵⁴ g, which rounding moves by at most
+/// g. So `hi` - a is a multiple of g of at most 2⁵³ g, and exact, and so is what is left of b.
 #[cfg_attr(not(target_os = "none"), inline(always))]
 #[cfg_attr(target_os = "none", inline(never))]
 pub(crate) fn fast_two_sum(a: f64, b: f64) -> Pair {
@@ -174,6 +177,7 @@ impl Add for Pair {
     #[cfg_attr(not(target_os = "none"), inline(always))]
     #[cfg_attr(target_os = "none", inline(never))]
     fn add(self, other: Self) -> Self {
+        // Where this is smaller than the low parts, one number is within twice the other, and the sum a multiple of its last place.
         let sum = two_sum(self.hi, other.hi);
         fast_two_sum(sum.hi, sum.lo + (self.lo + other.lo))
     }

@@ -1,7 +1,7 @@
 //! The geometric derivation in plain `f64`, with a bound on the error of the very case.
 //!
-//! The first step has to be quick, so its bound covers all cases. Where it leaves a doubt, the bound is computed, and the geometric
-//! derivation is taken whichever was asked for, because its error does not grow with the square of the distance.
+//! The first step has to be quick, so its bound covers all cases. Where it leaves a doubt, the bound is computed, and the
+//! geometric derivation is taken whichever was asked for, because its error does not grow with the square of the distance.
 //!
 //! With u = 2⁻⁵³, P = |o| |d|, M = |o × d| as computed and each of o = c - p rounded once, to first order and then rounded up:
 //!

@@ -33,10 +33,10 @@ pub(crate) struct PointTolerance {
 }
 
 impl Format {
-    /// Whether what the first steps leave in doubt goes to the last step at once. It answers as those between do, bit for bit: without
-    /// them there is less code, and rare cases take longer.
+    /// Whether the steps between the first ones and the last are left out. The last step returns the same bits as these, so the
+    /// results do not change: there is less code, and rare cases take longer.
     ///
-    /// So it is where `f64` is software, because there the steps between are slower than integers, and for `f32` in WebAssembly,
+    /// They are left out where `f64` is software, because there they are slower than integers, and for `f32` in WebAssembly,
     /// because code is downloaded there.
     pub(crate) const fn has_few_steps(self) -> bool {
         match self {
@@ -74,7 +74,8 @@ impl Format {
         if relative_error.is_nan() || relative_error >= 0.25 {
             return None;
         }
-        let error = t.hi.abs() * relative_error;
+        // The least is for what may underflow.
+        let error = t.hi.abs() * relative_error + f64::MIN_POSITIVE;
         let [[low], [high]] = self.ends([t.hi], [t.lo], [error]);
         // In bits, because an interval around zero has two.
         if low.to_bits() == high.to_bits() {

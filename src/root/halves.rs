@@ -10,20 +10,35 @@
 //! Nearly all of f cancels, so it has to be computed in more than 53 bits. [`Halves`] splits a vector into a high part, every
 //! coordinate a multiple of the same power of two and of at most 26 bits, and a low part of the rest. A dot product of high
 //! parts is then exact in plain `f64`, whichever way it is summed up: each product is an integer multiple of one power of two,
-//! and by the inequality of Cauchy and Schwarz no partial sum exceeds 2⁵³ of these. Those of o are multiples of 2⁻²⁶ √m or more, as
-//! coarse as those of w at the least, so that their sum with w.high is exact too: |o| < 2¹⁶ r where a root is clear of doubt. Only
-//! products with low parts are rounded, and these are 2⁻²⁶ of the whole. (Rump, Ogita and Oishi, *Accurate Floating-Point
-//! Summation*, 2008, extract vectors so.)
+//! and by the inequality of Cauchy and Schwarz no partial sum exceeds 2⁵³ of these. Only products with low parts are rounded, and
+//! these are 2⁻²⁶ of the whole. (Rump, Ogita and Oishi, *Accurate Floating-Point Summation*, 2008, extract vectors so.)
 //!
-//! **The error**, with m the larger of o·o and r², and each t |d| ≤ 2 √m, to first order. What is rounded in a coordinate of w are
-//! t.high d.low, t.low d, their sum, its difference from o.low, and what is added to that: with low parts of 2⁻²⁵ of t, 2⁻²⁶ of
-//! |d| and 2⁻²⁶ of |o|, in all 2⁻⁷⁴ √m. In f, that makes 2⁻⁷³ r √m; the low part of w is at most 2⁻²² √m, and six roundings of
-//! its product with 2 w are 2⁻⁷² r √m more. So f errs by at most 2⁻⁷¹ r √m, and τ by 2⁻⁷² r √m / s, where s = |w·d| is half the
-//! chord. A root is accepted where (s t)² > 2⁻²⁰ r² m, so that this is at most 2⁻⁶² t.
+//! The sum of o.high and w.high is exact, too. Both are multiples of the same power of two, which is at least 2⁻²⁶ r. And where a
+//! root is clear of doubt, |o| < 2¹⁶ r: their sum is far below 2⁵³ of these multiples.
 //!
-//! By the bound of the first step with [`CLEAR`], |τ| < 2⁻³²·⁸ t, and s > 2⁻¹⁷ √(a m), so that a t / s < 2¹⁸. So what the plain slope
-//! w·d errs by, 4 u r |d| / s < 2⁻³⁴ of itself, is 2⁻⁶⁶ of t; and the term of third order that is left out, τ (a τ / s)² / 2, is below
-//! 2⁻⁶³·³ of t.
+//! **The error**, with m the larger of o·o and r², and t |d| ≤ 2 √m, to first order. The low part of t is at most 2⁻²⁵ of it, and
+//! each coordinate of d.low at most 2⁻²⁶ |d|, of o.low 2⁻²⁶ √m and of the rest of t d 2⁻²⁶ r. In vectors, with √3 for each of
+//! these,
+//!
+//! ```text
+//!                                  is at most        and rounded by at most u times that
+//! t.high d.low                     0.9 · 2⁻²⁴ √m     0.9 · 2⁻⁷⁷ √m
+//! t.low d                          1.0 · 2⁻²⁴ √m     1.0 · 2⁻⁷⁷ √m
+//! their sum                        1.9 · 2⁻²⁴ √m     1.9 · 2⁻⁷⁷ √m
+//! o.low                            0.5 · 2⁻²⁴ √m     0.5 · 2⁻⁷⁷ √m
+//! the difference of these two      2.4 · 2⁻²⁴ √m     2.4 · 2⁻⁷⁷ √m
+//! with the rest of t d, w.low      2.9 · 2⁻²⁴ √m     2.9 · 2⁻⁷⁷ √m
+//! w                                                  9.6 · 2⁻⁷⁷ √m = 1.2 · 2⁻⁷⁴ √m
+//! f, as 2 w times that                               1.2 · 2⁻⁷³ r √m
+//! f, six roundings of 2 w w.low    2.9 · 2⁻²³ r √m   8.7 · 2⁻⁷⁵ r √m
+//! ```
+//!
+//! So f errs by less than 2⁻⁷¹ r √m, and τ by 2⁻⁷² r √m / s, where s = |w·d| is half the chord. A root is accepted where
+//! (s t)² > 2⁻²⁰ r² m, so that this is at most 2⁻⁶² t. In one coordinate, w errs by less than 2⁻⁷⁴ √m.
+//!
+//! By the bound of the first step with [`CLEAR`], |τ| < 2⁻³²·⁸ t, and s > 2⁻¹⁷ √(a m), so that a t / s < 2¹⁸. So what the plain
+//! slope w·d errs by, 4 u r |d| / s < 2⁻³⁴ of itself, is 2⁻⁶⁶ of t; and the term of third order that is left out, τ (a τ / s)² /
+//! 2, is below 2⁻⁶³·³ of t.
 
 use glam::DVec3;
 

@@ -51,22 +51,33 @@ impl Setting {
 
     /// The same from afar, where the error of t would move the point: by the closest approach.
     ///
-    /// Its foot, (h / a) d - o, is off by 8 u |o| along d, what h brings besides o's error, a, its reciprocal and a product; and by
-    /// u |o| each for o, across d, and for the product with d: by less than 9.1 u |o|. The square of half the chord's length is off by
-    /// 4 u r |o| for what the foot errs by at right angles to d, and by 5 u r²; that error along d counts as a square, as next to
-    /// nothing. So half the length, s / √a, is off by less than 5 u r |o| over itself, and 4 u r.
+    /// Its foot is (h / a) d - o, and half the chord's length l = s / √a. With r² exact,
     ///
-    /// A root of the plain step has s / √a > 2⁻¹⁶ |o|, and both are off by less than 2⁻³¹ r. The others are those of
-    /// [`half_chord_from_afar`], whose bounds include these.
+    /// ```text
+    /// h / a       h 3 u without o, a 3 u, its reciprocal, a product        |error| ≤ 8 u |o|, along d
+    /// (h / a) d   a product                                                |error| ≤   u |o|
+    /// o           across d; along d, the error in h cancels it             |error| ≤   u |o|, across d
+    /// the foot    together, √(8² + 1) u |o| + u |o|                        |error| < 9.1 u |o|
+    /// l²          2 r times what the foot is off by across d, 2 u |o|      |error| ≤ 4 u r |o|
+    ///             the foot's difference, its square and r² less that       |error| ≤ 5 u r²
+    /// l           both over l, and as r < |o| / 128                        |error| < 5 u r |o| / l
+    ///             1 / a, a product, the root                               |error| < 4 u r
+    /// ```
+    ///
+    /// What the foot is off by along d counts in l² only by its square, which is next to nothing.
+    ///
+    /// A root of the plain step has l > 2⁻¹⁶ |o|, and both the foot and l are off by less than 2⁻³¹ r. The other roots are those
+    /// of [`half_chord_from_afar`], whose bounds include these. The far crossing is as far from the foot as the near one.
     #[inline(always)]
-    fn found_from_afar(&self, chord: &Chord<f64>, rounded: f32) -> Found {
+    fn found_from_afar(&self, chord: &Chord<f64>, side: Side, rounded: f32) -> Found {
         let Self { line, o, radius_squared } = *self;
         let per_a = chord.a.recip();
         // From the center to the closest approach, and the square of half the chord's length.
         let foot = line.direction * (chord.h * per_a) - o;
         let square = radius_squared - foot.length_squared();
         let along = if is_not_positive(square) { 0.0 } else { sqrt(square * per_a) };
-        let offset = foot - line.direction * along;
+        let along = if side == Side::Near { -along } else { along };
+        let offset = foot + line.direction * along;
         let normal = offset * line.radius.recip();
         Found { t: rounded.into(), point: line.center + offset, normal }
     }
@@ -96,7 +107,7 @@ impl Setting {
 #[inline(never)]
 #[expect(clippy::cast_possible_truncation, reason = "it is rounded already")]
 fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
-    let side = if half_chord > 0.0 { Side::Near } else { Side::Far };
+    let side = side_of(half_chord);
     if Format::F32.has_few_steps() {
         return root_carefully(line, Format::F32, side).map(|t| t as f32);
     }
@@ -109,8 +120,8 @@ fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
 #[inline(never)]
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
 fn from_the_surface(line: &Line, chord: Chord<f64>, range: Range<f32>) -> Verdict<Found> {
-    /// Of the point, in t |d|: with h² > clear a m, h errs by 2¹⁰ u of itself, and t by 1,030 u; o, products and sums bring 8 u r, and
-    /// t |d| > 2⁻⁷ r.
+    /// Of the point, in t |d|: with h² > clear a m, h errs by 2¹⁰ u of itself, and t by 1,030 u; o, products and sums bring 8 u
+    /// r, and t |d| > 2⁻⁷ r.
     const ERROR: f64 = 4096.0 * U;
     let Chord { a, h, distance_squared, power, .. } = chord;
     if line.radius < 0.0
@@ -128,7 +139,7 @@ fn from_the_surface(line: &Line, chord: Chord<f64>, range: Range<f32>) -> Verdic
     }
     let t = 2.0 * h / a;
     let rounded = t as f32;
-    if !rounds_safely::<MARGIN>(t) || rounded < f32::MIN_POSITIVE {
+    if !rounds_safely::<MARGIN>(t) || rounded <= f32::MIN_POSITIVE {
         return Verdict::Doubt;
     }
     if !range.contains(&rounded) {
@@ -143,8 +154,8 @@ fn from_the_surface(line: &Line, chord: Chord<f64>, range: Range<f32>) -> Verdic
         .map_or(Verdict::Doubt, Verdict::Hit)
 }
 
-/// Finds the nearest hit where the plain step is in doubt: with a finer power close to the surface, and with the bound of the case
-/// from afar.
+/// Finds the nearest hit where the plain step is in doubt: with a finer power close to the surface, and with the bound of the
+/// case from afar.
 #[cold]
 #[inline(never)]
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
@@ -160,33 +171,53 @@ fn nearest_again(
     let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
     let nearest =
         if is_far { from_afar(&setting, &chord) } else { setting.nearest_ahead(&chord, true) };
-    let rounded = match nearest {
+    let carefully = || nearest_carefully(line, Format::F32, start.into()..end.into());
+    let (t, half_chord) = match nearest {
         Nearest::Miss => return None,
-        Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) => Some((t, t as f32)),
-        Nearest::Root { t, half_chord } => {
-            round_carefully(line, t, half_chord).map(|rounded| (t, rounded))
-        }
-        Nearest::Doubt if is_far || Format::F32.has_few_steps() => None,
+        Nearest::Root { t, half_chord } => (t, half_chord),
+        Nearest::Doubt if is_far || Format::F32.has_few_steps() => return carefully(),
         Nearest::Doubt => match from_the_surface(line, chord, start..end) {
             Verdict::Miss => return None,
             Verdict::Hit(found) => return Some(found),
-            Verdict::Doubt => None,
+            Verdict::Doubt => return carefully(),
         },
     };
-    // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
-    let is_certain = |rounded: f32| rounded >= start && rounded >= f32::MIN_POSITIVE;
-    let Some((t, rounded)) = rounded.filter(|(_, rounded)| is_certain(*rounded)) else {
-        return nearest_carefully(line, Format::F32, start.into()..end.into());
+    // Rounding is another matter below the normal numbers, and of what is rounded up to the smallest of them.
+    let round = |t: f64, half_chord: f64| {
+        let rounded = if rounds_safely::<MARGIN>(t) {
+            Some(t as f32)
+        } else {
+            round_carefully(line, t, half_chord)
+        };
+        rounded.filter(|&rounded| rounded > f32::MIN_POSITIVE)
     };
-    (rounded < end).then(|| {
-        if is_far { setting.found_from_afar(&chord, rounded) } else { setting.found(t, rounded) }
+    let Some(rounded) = round(t, half_chord) else { return carefully() };
+    let (t, half_chord, rounded) = if rounded < start && half_chord > 0.0 {
+        let (t, half_chord) = (plain::far_root(&chord, half_chord), -half_chord);
+        let Some(rounded) = round(t, half_chord) else { return carefully() };
+        (t, half_chord, rounded)
+    } else {
+        (t, half_chord, rounded)
+    };
+    (start..end).contains(&rounded).then(|| {
+        if is_far {
+            setting.found_from_afar(&chord, side_of(half_chord), rounded)
+        } else {
+            setting.found(t, rounded)
+        }
     })
+}
+
+/// The side of a root of the plain step, by the sign of its half-chord.
+#[inline(always)]
+fn side_of(half_chord: f64) -> Side {
+    if half_chord > 0.0 { Side::Near } else { Side::Far }
 }
 
 /// Finds half the chord of a line from farther than [`NEAR`] by the closest approach.
 ///
-/// With the discriminant within e, half the chord s errs by e / 2 s, which counts against a sum of P or more in the root, and in the
-/// point against a radius, of which it is to be less than 2⁻²⁶.
+/// With the discriminant within e, half the chord s errs by e / 2 s, which counts against a sum of P or more in the root, and in
+/// the point against a radius, of which it is to be less than 2⁻²⁶.
 #[inline(always)]
 fn half_chord_from_afar(setting: &Setting) -> Verdict<f64> {
     /// Of s P, so that the root errs by 2⁻³⁵ of itself.
@@ -255,27 +286,49 @@ fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Op
     let chord = setting.chord::<D>();
     match setting.nearest_ahead(&chord, false) {
         Nearest::Miss => return None,
-        Nearest::Root { t, .. } => {
+        Nearest::Root { t, half_chord } => {
             let rounded = t as f32;
-            // Below the range, the other root may be in it; below the normal numbers, rounding is another matter.
-            if rounds_safely::<MARGIN>(t) && rounded >= range.start && rounded >= f32::MIN_POSITIVE
-            {
+            // Down to the smallest normal number, rounding is another matter.
+            let is_certain = rounds_safely::<MARGIN>(t) && rounded > f32::MIN_POSITIVE;
+            if is_certain && rounded >= range.start {
                 // Not where that is NaN.
                 let is_in_range = rounded < range.end;
                 if !is_in_range {
                     return None;
                 }
                 let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
+                // From so far outside, it is the near one.
+                let side = Side::Near;
                 if is_far && HAS_F64 {
                     // Apart, so that the compiler need not keep what only one of the two needs.
-                    return Some(hit(sphere, ray, setting.found_from_afar(&chord, rounded)));
+                    return Some(hit(sphere, ray, setting.found_from_afar(&chord, side, rounded)));
                 }
                 let found = if is_far {
-                    setting.found_from_afar(&chord, rounded)
+                    setting.found_from_afar(&chord, side, rounded)
                 } else {
                     setting.found(t, rounded)
                 };
                 return Some(hit(sphere, ray, found));
+            }
+            // Where the near root is below the range, the far one may be in it.
+            if is_certain && HAS_F64 {
+                if half_chord < 0.0 {
+                    return None;
+                }
+                let t = plain::far_root(&chord, half_chord);
+                if rounds_safely::<MARGIN>(t) {
+                    let rounded = t as f32;
+                    if !range.contains(&rounded) {
+                        return None;
+                    }
+                    let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
+                    let found = if is_far {
+                        setting.found_from_afar(&chord, Side::Far, rounded)
+                    } else {
+                        setting.found(t, rounded)
+                    };
+                    return Some(hit(sphere, ray, found));
+                }
             }
         }
         Nearest::Doubt => {}
@@ -297,6 +350,11 @@ fn intersect_by_a_call<D: Derivation>(
 impl Precision for Vec3 {
     const UNIT_ULP: f64 = f32::EPSILON as f64;
     const LEAST_POSITIVE: f64 = f32::from_bits(1) as f64;
+
+    #[inline(always)]
+    fn next_above(t: f32) -> f32 {
+        f32::from_bits(t.to_bits().wrapping_add(1))
+    }
 
     #[inline(always)]
     fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
@@ -331,7 +389,9 @@ impl Precision for Vec3 {
 fn surely_rounded([near, far]: [f64; 2]) -> Option<[f32; 2]> {
     if rounds_safely::<MARGIN>(near) && rounds_safely::<MARGIN>(far) {
         let rounded = [near as f32, far as f32];
-        if rounded[0].is_normal() && rounded[1].is_normal() {
+        // As for the nearest root.
+        let is_certain = |rounded: f32| rounded.is_normal() && rounded.abs() != f32::MIN_POSITIVE;
+        if is_certain(rounded[0]) && is_certain(rounded[1]) {
             return Some(rounded);
         }
     }
@@ -343,15 +403,16 @@ fn surely_rounded([near, far]: [f64; 2]) -> Option<[f32; 2]> {
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded already")]
 fn hit(sphere: &Sphere, ray: &Ray, found: Found) -> Hit {
     let (t, point) = (found.t as f32, found.point.as_vec3());
-    Hit { t, point, normal: found.normal.as_vec3(), error: point_error(t, sphere, ray) }
+    let (normal, error) = (found.normal.as_vec3(), point_error(t, sphere, ray));
+    Hit { t, point, normal, error }
 }
 
 /// How far off the point may be besides the rounding of its coordinates, and more: see [`Hit::clearance`].
 ///
 /// The point is off by at most the smaller of 2⁻³¹ of the distance travelled and 2⁻²⁵ of the radius; here are 2⁻²⁹ of the largest
 /// coordinate of the way travelled, which is at least 1/√3 of it, and 2⁻²⁴ of the radius. A direction that is outward by the
-/// rounded normal is inward in truth by no more than that is off, e < √3 2⁻²⁵, and passes the surface from e² r / 2 above it; here
-/// are 2⁻⁴⁸ r.
+/// rounded normal is inward in truth by no more than that is off, e < √3 2⁻²⁵, and passes the surface from e² r / 2 above it;
+/// here are 2⁻⁴⁸ r.
 #[inline(always)]
 fn point_error(t: f32, sphere: &Sphere, ray: &Ray) -> f32 {
     const OF_DISTANCE: f32 = f32::EPSILON / 64.0;

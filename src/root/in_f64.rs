@@ -91,36 +91,39 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
         // Both roots are behind, or the far one is 0.
         return Some(None);
     }
-    if !is_outside && !is_behind {
-        // The far root, where nothing cancels.
-        let t = (chord.h + half_chord) / chord.a;
-        let size = radius_squared * larger;
-        let corrected = setting.correction(&chord).correct_surely(t, half_chord, size)?;
-        if !range.contains(&corrected.t.hi) {
+    if is_outside || is_behind {
+        let root = surface::small_root(o, line.direction.into(), &chord, half_chord, power);
+        if root.0.hi.abs() < LEAST_PAIR {
+            return None;
+        }
+        let side = if is_outside { Side::Near } else { Side::Far };
+        let t = Format::F64
+            .round(root.0, root.1, |midpoint| integers::compare_root(&{ line }, side, midpoint))?;
+        if t > 0.0 && range.contains(&t) {
+            return surface::hit(line, o, root, t).map(Some);
+        }
+        if is_behind || t >= range.start {
             return Some(None);
         }
-        return corrected.hit(line, sqrt(chord.a), sqrt(larger), half_chord).map(Some);
     }
-    let root = surface::small_root(o, line.direction.into(), &chord, half_chord, power);
-    if root.0.hi.abs() < LEAST_PAIR {
-        return None;
-    }
-    let side = if is_outside { Side::Near } else { Side::Far };
-    let t = Format::F64
-        .round(root.0, root.1, |midpoint| integers::compare_root(&{ line }, side, midpoint))?;
-    if t < range.start && is_outside {
-        // The other root may be in the range.
-        return None;
-    }
-    if !(t > 0.0 && range.contains(&t)) {
+    // The far root, where nothing cancels.
+    let t = plain::far_root(&chord, half_chord);
+    let size = radius_squared * larger;
+    let corrected = setting.correction(&chord).correct_surely(t, half_chord, size)?;
+    if !range.contains(&corrected.t.hi) {
         return Some(None);
     }
-    surface::hit(line, o, root, t).map(Some)
+    corrected.hit(line, sqrt(chord.a), sqrt(larger), half_chord).map(Some)
 }
 
 impl Precision for DVec3 {
     const UNIT_ULP: f64 = f64::EPSILON;
     const LEAST_POSITIVE: f64 = f64::from_bits(1);
+
+    #[inline(always)]
+    fn next_above(t: f64) -> f64 {
+        f64::from_bits(t.to_bits().wrapping_add(1))
+    }
 
     #[inline(always)]
     fn intersect<D: Derivation>(
@@ -135,15 +138,23 @@ impl Precision for DVec3 {
                 Nearest::Miss => return None,
                 Nearest::Root { t, half_chord } => {
                     let size = setting.radius_squared * setting.larger(&chord);
-                    let corrected = setting.correction(&chord).correct_surely(t, half_chord, size);
-                    if let Some(corrected) = corrected {
-                        let t = corrected.t.hi;
-                        // Below the range, the other root may be in it.
-                        if t >= range.start {
-                            return (t < range.end).then(|| {
-                                hit(line, t, corrected.point(), corrected.offset() / line.radius)
+                    let correction = setting.correction(&chord);
+                    let (mut t, mut is_far) = (t, half_chord < 0.0);
+                    let half_chord = half_chord.abs();
+                    // One copy of the code for both roots.
+                    while let Some(root) = correction.correct_surely(t, half_chord, size) {
+                        let t_rounded = root.t.hi;
+                        if t_rounded >= range.start {
+                            return (t_rounded < range.end).then(|| {
+                                let normal = root.offset() / line.radius;
+                                hit(line, t_rounded, root.point(), normal)
                             });
                         }
+                        if is_far {
+                            return None;
+                        }
+                        // Where the near root is below the range, the far one may be in it.
+                        (t, is_far) = (plain::far_root(&chord, half_chord), true);
                     }
                 }
                 Nearest::Doubt => {}
@@ -183,8 +194,8 @@ fn hit(line: Line, t: f64, point: DVec3, normal: DVec3) -> Hit<DVec3> {
 
 /// How far off the point may be besides the rounding of its coordinates, and more: see [`Hit::clearance`].
 ///
-/// As for `f32`, where the point may be off by the smaller of 2⁻⁶⁰ of the distance travelled and 2⁻⁵³ of the radius, and the normal
-/// by e < √3 2⁻⁵².
+/// As for `f32`, where the point may be off by the smaller of 2⁻⁶⁰ of the distance travelled and 2⁻⁵³ of the radius, and the
+/// normal by e < √3 2⁻⁵².
 #[inline(always)]
 fn point_error(t: f64, line: Line) -> f64 {
     const OF_DISTANCE: f64 = f64::EPSILON / 64.0;

@@ -32,15 +32,15 @@
 //! | exact tangents | `f32` | 18.9 | 0 | 0 | 81.1 |
 //! | | `f64` | 19.3 | 0 | 0 | 80.7 |
 //!
-//! The nanoseconds are those of the nearest root of a family that the step decides, misses and the steps before it included, beside
-//! 2.8 of the textbook's on easy cases (`cargo bench --bench speed_vs_error -- --prices` has every family).
+//! The nanoseconds are those of the nearest root of a family that the step decides, misses and the steps before it included,
+//! beside 2.8 of the textbook's on easy cases (`cargo bench --bench speed_vs_error -- --prices` has every family).
 //!
 //! A step that is not certain hands over to the next, and so does one that is certain of the root but not of the point. No step
 //! assumes what another has found, so each can be tested by itself.
 //!
 //! From [`surface`] on, and where a line starts exactly on the surface, the points and normals are correctly rounded, too
-//! ([`points`]). So all these steps answer alike, bit for bit, and those between the first and the last can be left out where there is
-//! no room for their code ([`Format::has_few_steps`]).
+//! ([`points`]). So all these steps answer alike, bit for bit, and those between the first and the last can be left out where
+//! there is no room for their code ([`Format::has_few_steps`]).
 
 mod bounded;
 pub(crate) mod chord;
@@ -50,6 +50,7 @@ mod halves;
 mod in_f32;
 mod in_f64;
 mod integers;
+pub(crate) mod order;
 mod pairs;
 mod plain;
 mod points;
@@ -60,10 +61,13 @@ mod surface;
 
 use core::ops::Range;
 
-use crossing::{Answer, Found, Line, Question, Side, Verdict};
+pub(crate) use crossing::Side;
+use crossing::{Answer, Found, Line, Question, Verdict};
 use format::Format;
 use integers::Exact;
 
+#[cfg(test)]
+mod any_exponent;
 #[cfg(test)]
 mod tests;
 

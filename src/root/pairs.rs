@@ -1,12 +1,12 @@
 //! The origin moved along the line, exactly, to where nothing cancels, and the quadratic solved from there.
 //!
-//! A ray lies on the same line wherever on it its origin is. With w = t d - o, from the center to where the line is at t, the quadratic
-//! from there is `a τ² + 2 (w·d) τ + (w·w - r²)`. Its discriminant, (w·d)² - a (w·w - r²), is the same for every t. Of a t in `f64`, w is
-//! computed in pairs, and so is w·w - r², where nearly all cancels; all else is plain.
+//! A ray lies on the same line wherever on it its origin is. With w = t d - o, from the center to where the line is at t, the
+//! quadratic from there is `a τ² + 2 (w·d) τ + (w·w - r²)`. Its discriminant, (w·d)² - a (w·w - r²), is the same for every t. Of
+//! a t in `f64`, w is computed in pairs, and so is w·w - r², where nearly all cancels; all else is plain.
 //!
-//! **At the closest approach**, t = h / a but for rounding, the discriminant loses nothing to cancellation: w·d is next to zero there,
-//! and w is no longer than a radius. Where the plain discriminant is certain enough, this move is left out. **At the root**, but for
-//! rounding, τ is a correction, to third order
+//! **At the closest approach**, t = h / a but for rounding, the discriminant loses nothing to cancellation: w·d is next to zero
+//! there, and w is no longer than a radius. Where the plain discriminant is certain enough, this move is left out. **At the
+//! root**, but for rounding, τ is a correction, to third order
 //!
 //! ```text
 //! τ = -q (1 + a q / 2 (w·d)),   q = (w·w - r²) / 2 (w·d)
@@ -21,16 +21,32 @@
 //! At the closest approach, where |t d| ≤ |o|, w·d is of no more than 8 u P, for what h, a and the quotient are rounded by, and
 //!
 //! ```text
-//! w·w - r²      40 v R² as a power in pairs, and what w errs by                    |error| ≤ 42 v R² + 16 u v R |o|
-//! w·d           8 v compensated, the low parts 7 v, w 1 v                          |error| ≤ 16 v R |d| + 24 u v P + u |w·d|
-//! (w·d)²        2 (8 u P) times that, and its rounding                             |error| ≤ 256 u v P R |d| + 192 u v P²
-//! a (w·w - r²)  a, 3 u, the rounding of the power and of the product               |error| ≤ that of the power, a times, + 5 u (D + (w·d)²)
-//! discriminant  and the difference, u                                              |error| ≤ 42 v a R² + 272 u v P R |d| + 512 u v P² + 6 u D
+//! w·w - r²      40 v R² as a power in pairs, and what w errs by      |error| ≤ 42 v R² + 16 u v R |o|
+//! w·d           8 v compensated, the low parts 7 v, w 1 v            |error| ≤ 16 v R |d| + 24 u v P + u |w·d|
+//! (w·d)²        2 (8 u P) times that, and its rounding               |error| ≤ 256 u v P R |d| + 192 u v P²
+//! a (w·w - r²)  a, 3 u, the rounding of the power and the product    |error| ≤ a times that of the power + 5 u (D + (w·d)²)
+//! discriminant  and the difference, u                                |error| ≤ 42 v a R² + 272 u v P R |d| + 512 u v P² + 6 u D
 //! ```
 //!
-//! At the root, |t d| ≤ 2 √m. After the first move, what w erred by there counts too, with R ≤ r + 8 u |o|: so w errs by 2 v r + 16 u v √m,
-//! and w·w - r² by 46 v r² + 32 u v r √m, which is half of that over s in t. The slope w·d errs by 4 u r |d|, of 12 u there are five in the
-//! operations of τ and three in w + τ d, and what is left out of τ is (a τ / s)² / 2 of it.
+//! At the root, |t d| ≤ 2 √m. The correction is taken only where the bend a τ / s is at most [`MOST_BEND`], 1/64. There the line
+//! at t is within |τ d| ≤ s / 64 |d| ≤ r / 64 of the root, so |w| ≤ 65/64 r, on which the 46 v and with them the 23 v below rest.
+//! And the slope w·d is at least 63/64 s. After the first move, what w erred by there counts too, with |w| ≤ r + 8 u |o|.
+//!
+//! ```text
+//! w             v |w| in each move, and 4 u v of the way and of o                  |error| ≤ 2.1 v r + 16 u v √m
+//! w·w - r²      40 v |w|² ≤ 41.3 v r² as a power in pairs, 2 |w| times that of w   |error| ≤ 46 v r² + 33 u v r √m
+//! t             half of that, over the slope                                       |error| ≤ 23.4 v r² / s + 17 u v r √m / s
+//! ```
+//!
+//! Besides, τ is off by these parts of itself:
+//!
+//! ```text
+//! the slope w·d             3 products and sums, w.hi for w, 4 u |w| |d| / |w·d|     ≤ 4.2 u r |d| / s
+//! the operations            the power, its product with 1 / 2 (w·d), the reciprocal, and the sum with the term of 2nd order
+//!                                                                                    ≤ 5 u
+//! w + τ d, and t + τ        2 and where an error is added 1; 1                       ≤ 4 u
+//! what is left out          (a τ / s)² / 2 and terms of higher order                 ≤ (a τ / s)²
+//! ```
 
 use core::cmp::Ordering;
 
@@ -74,8 +90,8 @@ const SLOPE_ERROR: f64 = 5.0 * U;
 const CORRECTION_ERROR: f64 = 12.0 * U;
 /// Of the sum that the root is, in itself.
 const PAIR_ERROR: f64 = 2.0 * V;
-/// Of a point, in the center and in the offset, which is less than twice the radius: of their low parts a sum is rounded, and once more
-/// where the error is added.
+/// Of a point, in the center and in the offset, which is less than twice the radius: of their low parts a sum is rounded, and
+/// once more where the error is added.
 const SUM_ERROR: f64 = 4.0 * V;
 /// The largest a τ / s.
 const MOST_BEND: f64 = 1.0 / 64.0;
@@ -99,8 +115,8 @@ pub(super) struct InPairs<'a> {
 
 /// w = t d - o. Where it is next to nothing beside o, the low part need not be small beside the high one.
 #[inline(always)]
-fn offset(Scaled { o, d, .. }: &Scaled, t: f64) -> Triple<Pair> {
-    o.zip(*d, |o, d| {
+pub(super) fn offset(o: Triple<Pair>, d: Triple<f64>, t: f64) -> Triple<Pair> {
+    o.zip(d, |o, d| {
         let step = two_product(t, d);
         let high = two_difference(step.hi, o.hi);
         let low = two_difference(step.lo, o.lo);
@@ -135,7 +151,7 @@ pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
     }
 
     let start = h / a;
-    let w = offset(&near.scaled, start).map(|w| two_sum(w.hi, w.lo));
+    let w = offset(near.scaled.o, near.scaled.d, start).map(|w| two_sum(w.hi, w.lo));
     let (power, larger) = power_in_pairs(w, radius);
     let along = compensated_dot(d, w.map(|w| w.hi));
     let along = along.hi + (along.lo + d.dot(w.map(|w| w.lo)));
@@ -171,7 +187,7 @@ impl InPairs<'_> {
         let Scaled { d, radius, .. } = self.scaled;
         let along = if side == Side::Near { h - half_chord } else { h + half_chord };
         let way = along / a;
-        let w = offset(&self.scaled, way);
+        let w = offset(self.scaled.o, self.scaled.d, way);
         let (power, _) = power_in_pairs(w, radius);
         let inverse_slope = (2.0 * w.map(|w| w.hi).dot(d)).recip();
         let q = power.hi * inverse_slope;
@@ -197,13 +213,23 @@ impl InPairs<'_> {
         root.error * self.length + of_offset
     }
 
-    /// How the root on that side compares with a number midway between its neighbors.
+    /// How the root on that side compares with a number midway between its neighbors, in scaled units.
+    ///
+    /// A number within 3 times the error is nearer to this root than to the other: they are 2 s / a apart. By the moved origin
+    /// s² > 192 v a r² + 1280 u v a r √m, so that what the power errs by makes less than s / 8 a, and the correction, at most s / 64 a,
+    /// brings half of that at most; of a plain discriminant, both are less; and 2 v |t| is next to nothing beside s / a > 2⁻⁷² |t|.
     #[inline(always)]
-    fn compare(&self, side: Side, number: Midpoint) -> Ordering {
+    fn compare(&self, side: Side, root: &Corrected, number: Midpoint) -> Ordering {
+        let above = root.above(number);
+        if above.abs() > 2.0 * (root.error + PAIR_ERROR * root.t.hi.abs()) {
+            return if above > 0.0 { Ordering::Greater } else { Ordering::Less };
+        }
+        let exponent = number.exponent + self.scaled.exponent();
+        let number = Midpoint { exponent, ..number };
         let certain = if self.scaled.is_scaled() { None } else { quadratic_at(self.line, number) };
         match (certain, side) {
             (None, _) => integers::compare_root(self.line, side, number),
-            // So close to a root of this chord, outside is before the near one and behind the far one.
+            // Nearer to this root than to the other, outside is before the near one and behind the far one.
             (Some(quadratic), Side::Near) => quadratic,
             (Some(quadratic), Side::Far) => quadratic.reverse(),
         }
@@ -231,9 +257,10 @@ fn quadratic_at(line: &Line, number: Midpoint) -> Option<Ordering> {
     let dropped = exact.x.1 + exact.y.1 + exact.z.1;
     let w = Triple { x: exact.x.0, y: exact.y.0, z: exact.z.0 };
     let (power, error) = surface::closest_power(w, line.radius);
-    // 0 only where all is exact.
+    // 0 only where all is exact: what is dropped counts, and its products may underflow.
     let size = w.x.hi.abs() + w.y.hi.abs() + w.z.hi.abs();
-    let error = error + 3.0 * (size + dropped) * dropped;
+    let of_dropped = 3.0 * (size + dropped) * dropped + f64::MIN_POSITIVE;
+    let error = if dropped == 0.0 { error } else { error + of_dropped };
     if power.hi.abs() > error || error == 0.0 { power.hi.partial_cmp(&0.0) } else { None }
 }
 
@@ -244,14 +271,8 @@ impl Crossings for InPairs<'_> {
     fn root(&mut self, side: Side) -> Option<(f64, Corrected)> {
         let corrected = self.corrected(side)?;
         let relative_error = corrected.error / corrected.t.hi.abs() + PAIR_ERROR;
-        let exponent = self.scaled.exponent();
-        let t = self.format.round(
-            corrected.t,
-            relative_error,
-            |Midpoint { integer, exponent: unit }| {
-                self.compare(side, Midpoint { integer, exponent: unit + exponent })
-            },
-        )?;
+        let compare = |number| self.compare(side, &corrected, number);
+        let t = self.format.round(corrected.t, relative_error, compare)?;
         Some((self.scaled.unscaled_root(t)?, corrected))
     }
 
@@ -262,6 +283,16 @@ impl Crossings for InPairs<'_> {
 }
 
 impl Corrected {
+    /// By how much it is above a number next to it, but for the last place of that difference.
+    #[inline(always)]
+    fn above(&self, Midpoint { integer, exponent }: Midpoint) -> f64 {
+        // The number is odd: an even one, of 53 bits and no larger, and 1. So next to it both differences are exact.
+        let one = integer.signum();
+        #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
+        let [even, one] = [integer - one, one].map(|part| scale(part as f64, exponent));
+        ((self.t.hi - even) - one) + self.t.lo
+    }
+
     /// From the center to where the line is there.
     #[inline(always)]
     fn offset(&self, Scaled { d, .. }: &Scaled) -> Triple<Pair> {
@@ -321,16 +352,17 @@ impl Corrected {
 
 /// The hit at a root that is known to a part of itself of 2⁻⁹⁴, if its point is certain; `t` is that root rounded.
 ///
-/// The products with its low part are rounded, too, which is v |o|.
+/// So the point is off by 4,096 v |t d|. The product of the root's low part with d is rounded by v |t d|, its sum with the low
+/// part of w by 2 v |w|, and w by v |w| as said above, where |w| ≤ |t d| + |o|: in all by at most 4,100 v (|t d| + |o|).
 pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Wide) -> Option<Found> {
-    /// 2⁻⁹⁰ of the way, and of |o|.
+    /// Of the way, |o| and r: 2⁻⁹⁰.
     const ERROR: f64 = 65536.0 * V;
     let scaled = Scaled::new(line)?;
     let Scaled { o, d, .. } = scaled;
     let o = o.map(|o| o.hi);
     let length = sqrt(d.dot(d));
     let root = root.scaled(-scaled.exponent());
-    let w = offset(&scaled, root.hi);
+    let w = offset(scaled.o, scaled.d, root.hi);
     let reach = sqrt(o.dot(o)) + scaled.radius + root.hi.abs() * length;
     let error = integers::ROOT_ERROR * root.hi.abs();
     let root = Corrected { t: root, error, w, correction: root.lo };

@@ -35,6 +35,14 @@
 //! h                 4 u √(a m), in a sum above √(clear a m)        ≤  4 u / √clear
 //! a, and the roundings of s, of the sum and of the quotient        ≤  6 u
 //! ```
+//!
+//! The first two make 17.5 u / clear. [`ROOT_ERROR`] has half of u / clear for the others: with a `clear` of 2⁻¹⁶ that is 32,768
+//! u, of which h takes 1,024 and the roundings 6. The largest term of the second order is that of the square root, which errs by
+//! δ / 2 s and at most (δ / 2 s) (δ / s²) more where the discriminant errs by δ. Because |h| + s ≤ 2 √(a m), s is above clear √(a
+//! m) / 2, so δ / s² < 84 u / clear² < 2⁻¹⁴, and the term takes less than 50 u.
+//!
+//! **The far root**, where the near one is not in the range asked for: t = (h + s) / a. An accepted root has s (|h| + s) > clear a m,
+//! as was said, and so this root errs by what the discriminant, h, a and the roundings bring, which is less than the above.
 
 use super::chord::Chord;
 use crate::arithmetic::comparison::{exceeds, is_not_positive, product_exceeds};
@@ -79,9 +87,10 @@ pub(super) enum Nearest {
 
 /// Finds the nearest root ahead, t > 0, of a chord in plain `f64`.
 ///
-/// `fine_power` gives the power with an error of at most 2⁻⁷⁶ m and its own last place, or `None`. It is asked where only the
-/// power is too small beside m, as close to the surface: with s (|h| + s) > clear a m, the discriminant and h err by no more than
-/// in the other cases, and where such a power is more than 2⁻⁴⁰ m, it errs by 2⁻³⁶ of itself: little where `clear` is at most 2⁻¹⁵.
+/// `fine_power` gives the power with an error of at most 2⁻⁷⁶ m and half its own last place, or `None`. It is asked close to the
+/// surface, where the power is too small beside m and nothing else is: s (|h| + s) > clear a m bounds what the discriminant and h
+/// bring to the root's error, as above. A fine power of more than 2⁻⁴⁰ m errs by at most 2⁻³⁶ of itself. That is less than the
+/// 7 u / clear of the plain power, where `clear` is at most 2⁻¹⁵.
 ///
 /// A NaN or an infinity anywhere ends in a root that is infinite or NaN, in a miss or in doubt, and so does a zero direction. A
 /// negative radius, given as a negative square, is a miss or ends in doubt.
@@ -133,6 +142,12 @@ pub(super) fn nearest_ahead(
         }
     }
     Nearest::Doubt
+}
+
+/// The far root, from half the chord of a near one that is accepted, with the same bound on its error.
+#[inline(always)]
+pub(super) fn far_root(&Chord { a, h, .. }: &Chord<f64>, half_chord: f64) -> f64 {
+    (h + half_chord) / a
 }
 
 /// Both roots.

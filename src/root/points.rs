@@ -1,7 +1,9 @@
-//! Points and normals, where a careful step finds them: correctly rounded, so that it does not matter which of these steps that is.
+//! Points and normals, where a careful step finds them: correctly rounded, so that it does not matter which of these steps that
+//! is.
 //!
-//! A coordinate of the point is the exact one, rounded to the format. The normal is (t d - o) / r: each coordinate of the dividend is the
-//! exact one, rounded to the digits of the format; the quotient is rounded once more; and below half an ulp of 1 it is zero.
+//! A coordinate of the point is the exact one, rounded to the format. The normal is (t d - o) / r: each coordinate of the
+//! dividend is the exact one, rounded to the digits of the format; the quotient is rounded once more; and below half an ulp of 1
+//! it is zero.
 //!
 //! Both ends of an interval that holds a coordinate are rounded, as those of a root are. Where they differ, the point is
 //! taken from the origin instead of the center ([`Crossing::from_root`]), and then the next step has to look.
@@ -45,7 +47,8 @@ pub(super) fn normal(format: Format, offset: f64, radius: f64) -> f64 {
 
 /// A vector whose coordinates are known within errors.
 ///
-/// An error is more than what is rounded where it is added to the low part, half an ulp of that.
+/// To round a coordinate, its error is added to the low part and subtracted from it ([`Format::ends`]). These two operations are
+/// rounded, by half an ulp of the low part at most: the error has to include that.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     pub(super) value: Triple<Pair>,
@@ -60,8 +63,8 @@ impl Near {
     }
 }
 
-/// p + t d, with t = `root` 2^`exponent` known within a part of itself: each coordinate in units of its own power of two, and known
-/// within a part of its terms.
+/// p + t d, with t = `root` 2^`exponent` known within a part of itself: each coordinate in units of its own power of two, and
+/// known within a part of its terms.
 fn on_the_line(line: &Line, root: Pair, exponent: i32, relative_error: f64) -> (Near, Triple<i32>) {
     /// Of the product and the sum.
     const ERROR: f64 = 10.0 * V;
@@ -198,7 +201,8 @@ fn next_to_zero(
         let (start, center) = (line.origin[axis], line.center[axis]);
         let (low, high) = ([low[axis], low[3 + axis]], [high[axis], high[3 + axis]]);
         if line.direction[axis] == 0.0 {
-            // Across the line, nothing changes along it: the point is the origin there, and the difference is exact or rounded once.
+            // Across the line, nothing changes along it: the point is the origin there, and the difference is exact or rounded
+            // once.
             let difference = two_difference(start, center);
             if format == Format::F32 && difference.lo != 0.0 || !difference.hi.is_finite() {
                 return None;
@@ -209,7 +213,8 @@ fn next_to_zero(
             normal[axis] = self::normal(format, offset, radius);
         } else {
             point[axis] = certain(low[0], high[0])? + 0.0;
-            // With a little to spare for the rounding of the quotient.
+            // The quotient by the radius is rounded twice, to 53 bits and to those of the format, at most by 2⁻²⁴ of itself each
+            // time: it stays below the least where it is below 1 - 2⁻²² of that. What lies between is left to the next step.
             let is_zero = low[1].abs().max(high[1].abs()) < radius * least(format) * 0.999;
             normal[axis] =
                 if is_zero { 0.0 } else { self::normal(format, certain(low[1], high[1])?, radius) };
@@ -223,10 +228,20 @@ fn certain(low: f64, high: f64) -> Option<f64> {
     (low == high).then_some(low)
 }
 
-/// Where a line crosses a sphere, from the center, by the lecture's closest approach: from its foot, at (o × d) × d / a, `along` d / a,
-/// which is half the chord to either side. The radius and d are near 1.
+/// Where a line crosses a sphere, from the center, by the lecture's closest approach: from its foot, at (o × d) × d / a, `along`
+/// d / a, which is half the chord to either side. The radius and d are near 1.
 ///
-/// The moment o × d, `along` and a are known within 2⁻⁹⁶ of themselves; with the rounding here that makes less than 2⁻⁹⁰.
+/// The moment o × d and a are known within 2⁻⁹⁶ of themselves, 1,024 v, and `along`, a root, within 516 v. A product of a pair
+/// and an `f64` rounds its low part by 3 v, and a sum of two such products by 5 v of their magnitudes. So, in r a,
+///
+/// ```text
+/// moment × d       1,024 + 3 + 5, by Cauchy and Schwarz of |moment| |d| ≤ r a     |error| ≤ 1,032 v r a
+/// along d          516 + 3, of |along| |d| ≤ r a                                  |error| ≤   519 v r a
+/// their sum        5 of |moment| |d| + |along| |d| ≤ √2 r a                       |error| ≤     8 v r a
+/// over a           1,024, and a quotient of pairs 12, of r                        |error| ≤ 1,036 v r
+/// ```
+///
+/// That makes 2,595 v r, less than 2¹³ v because r < 2. The bound taken is 2¹⁶ v.
 pub(super) fn from_closest_approach(
     moment: Triple<Pair>,
     d: Triple<f64>,
@@ -247,7 +262,7 @@ pub(super) fn from_closest_approach(
 #[cold]
 #[inline(never)]
 pub(super) fn at_center(line: &Line, format: Format, t: f64, a: Wide) -> Option<Found> {
-    /// A root, a quotient, and what a is known within.
+    /// a is known within 2⁻⁹⁶ of itself, 1,024 v: its root within half of that and 4 v, and the quotient within 10 v more, 526 v.
     const ERROR: f64 = 4096.0 * V;
     let direction = line.direction.to_array();
     let longest = exponent(line.direction.abs().max_element());

@@ -12,6 +12,11 @@ pub trait Precision: Sized {
     /// The smallest number above 0.
     const LEAST_POSITIVE: f64;
 
+    /// The float after one that is positive and finite.
+    fn next_above(t: Self::Scalar) -> Self::Scalar
+    where
+        Self: Vector;
+
     /// Where the ray meets the sphere first with `t` in `range`.
     fn intersect<D: Derivation>(
         sphere: &Sphere<Self>,

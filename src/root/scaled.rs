@@ -17,7 +17,8 @@ pub(super) struct Scaled {
 }
 
 impl Scaled {
-    /// `None` where the difference of the positions is no pair, or all lengths are zero. A NaN in the direction or the radius may stay.
+    /// `None` where the difference of the positions is no pair, or all lengths are zero. A NaN in the direction or the radius may
+    /// stay.
     #[inline(always)]
     pub(super) fn new(line: &Line) -> Option<Self> {
         /// Fourth powers of what lies within this of 1 neither overflow nor lose anything in a pair.
@@ -65,15 +66,15 @@ impl Scaled {
         self.length_exponent - self.direction_exponent
     }
 
-    /// A rounded root in the caller's units, infinite beyond the largest number; `None` below the smallest normal one, where a root
-    /// has fewer digits.
+    /// A rounded root in the caller's units, infinite beyond the largest number; `None` below the smallest normal one, where a
+    /// root has fewer digits.
     #[inline(always)]
     pub(super) fn unscaled_root(&self, t: f64) -> Option<f64> {
         if !self.is_scaled() {
             return Some(t);
         }
         let unscaled = scale(t, self.exponent());
-        (unscaled.abs() >= f64::MIN_POSITIVE).then_some(unscaled)
+        (unscaled.abs() > f64::MIN_POSITIVE).then_some(unscaled)
     }
 
     /// Whether the units are not the caller's.

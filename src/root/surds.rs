@@ -8,14 +8,13 @@
 //! t d - o     (h d - o a ∓ d √D) / a
 //! ```
 //!
-//! A number of the kind less a float is of the kind again. Where A and B √D nearly cancel, their sum is (A² - B² D) / (A - B √D), with
-//! a dividend, the norm, that is exact, and a divisor in which nothing cancels. So the sign of a number is certain, zero too, and its
-//! size is known within [`ERROR`] of itself. That is all that [`Surd::round`] needs.
+//! Such a number minus a float is such a number, too. Where A and B √D nearly cancel, their sum is computed as
+//! (A² - B² D) / (A - B √D): the dividend, called the norm, is an exact integer, and in the divisor nothing cancels. So it is
+//! certain whether a number is positive, negative or zero, and its size is known within [`ERROR`] of itself. [`Surd::round`]
+//! needs no more.
 //!
-//! The integers have as many digits as it takes. Lengths are multiples of one power of two, and directions of another.
-//! Between the smallest and the largest `f32` lie 277 binary places, and 2,098 for `f64`. The widest numbers are those of the normal: A
-//! has three times as many places, and 150 or 1,075 more down to the midpoint next to zero, in all 986 bits or 7,380; the norm has
-//! twice as many.
+//! The integers have as many digits as it takes: [`digits`] of them. Lengths are multiples of one power of two, and directions of
+//! another.
 
 use glam::DVec3;
 
@@ -31,16 +30,28 @@ use crate::arithmetic::scaling::{integer_and_exponent, scale};
 #[cfg(test)]
 mod tests;
 
-/// The digits of an integer for lines in each precision: room for the norm, the digit that a sum has to spare, and zeros at the top of the
-/// factors.
-pub(super) const F32_DIGITS: usize = (2304 / PLACES) as usize;
-pub(super) const F64_DIGITS: usize = (15_360 / PLACES) as usize;
+/// The digits of an integer for lines in each precision.
+pub(super) const F32_DIGITS: usize = digits(-149, 128);
+pub(super) const F64_DIGITS: usize = digits(-1074, 1024);
+
+/// The digits of the largest integer for lines of numbers that are multiples of 2^`least` and below 2^`most`: no sum has more.
+///
+/// With p binary places between these two, d is below 2ᵖ and o below twice that, in each coordinate. The widest number is that of
+/// the normal. Its A, h d - a o, is below 2³ᵖ⁺⁵, as is every sum on the way to it. B √D is less, and where a multiple of a place is
+/// subtracted, less than twice as much is left. The place may be as fine as the midpoint next to zero, half of 2^`least`, where the
+/// unit of A is at most 1. The norm has twice as many places. A sum has one digit more than the product that is added.
+const fn digits(least: i32, most: i32) -> usize {
+    let places = (most - least).unsigned_abs();
+    let finer = (1 - least).unsigned_abs();
+    let rational = (3 * places + 6 + finer).div_ceil(PLACES);
+    (2 * rational + 1) as usize
+}
 
 /// How far off what is left of a number may be, as a part of itself.
 ///
-/// An integer of many digits is rounded by 3 u, and √D by half of that and u, its product with B by u. Where their sum is at least a
-/// quarter of A, it errs by 4 times 3 u and 5 times 3.5 u and by u, and the division by C brings 4 u more: 35 u. The norm, over a
-/// difference in which nothing cancels, has less.
+/// An integer of many digits is rounded by 3 u, and √D by half of that and u, its product with B by u. Where their sum is at
+/// least a quarter of A, it errs by 4 times 3 u and 5 times 3.5 u and by u, and the division by C brings 4 u more: 35 u. The
+/// norm, over a difference in which nothing cancels, has less.
 const ERROR: f64 = 64.0 * U;
 
 /// A number (A + B √D) / C, in units of 2^`unit`.
@@ -97,8 +108,8 @@ impl Surd<'_, '_> {
 
     /// The number, rounded.
     ///
-    /// It is divided into a multiple of the last place and what is left, until that tells which multiple is the nearest. Where what is
-    /// left is next to a midpoint, how the number compares with that tells.
+    /// It is divided into a multiple of the last place and what is left, until that tells which multiple is the nearest. Where
+    /// what is left is next to a midpoint, how the number compares with that tells.
     #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
     fn round(&self, format: Format, scratch: &mut Scratch) -> f64 {
         /// Of fewer last places the error is far below half of one.
@@ -141,8 +152,8 @@ impl Surd<'_, '_> {
     }
 }
 
-/// An integer over 2^`below`, rounded down, and whether the rest is more than half, if that is certain where the integer is within
-/// [`ERROR`] of itself.
+/// An integer over 2^`below`, rounded down, and whether the rest is more than half, if that is certain where the integer is
+/// within [`ERROR`] of itself.
 fn divided(integer: u64, below: i32) -> (i64, Option<bool>) {
     /// 2⁻⁴⁷ of it, as [`ERROR`] is.
     const ERROR_PLACES: u32 = 47;
@@ -174,10 +185,10 @@ struct InSurds<'m> {
     scratch: Scratch<'m>,
 }
 
-/// The exponent of the largest power of two that all coordinates are multiples of, any if these are zeros; `None` where one is not
-/// finite.
+/// The exponent of the largest power of two that all coordinates are multiples of, any if these are zeros; `None` where one is
+/// not finite.
 #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
-fn common_unit(vectors: &[DVec3]) -> Option<i32> {
+pub(super) fn common_unit(vectors: &[DVec3]) -> Option<i32> {
     /// That of the last place of the largest number.
     const LARGEST: i32 = 971;
     let mut unit = LARGEST;

@@ -2,9 +2,16 @@
 //!
 //! There nearly all of the power o·o - r² cancels, and nothing else does: the discriminant is nearly h². The small root solves
 //! t (2 h - a t) = power, and is taken from that where a |power| < h² / 16, so that s, half the chord, is more than 0.96 |h|, and
-//! 2 s² > 2⁻¹⁶ a m. A root by the bounds of the plain step, but with this power, errs by e < 2⁻³³ of itself. One step of Newton's
-//! leaves, of t: what the power errs by, as a part of itself; of the compensated a and h, 32 v √(a m) / 2 s < 2⁻⁹⁰, and a few v for
-//! the rest; e² a t / 2 s < 2⁻⁷¹ for the curvature; and for the slope, e times its error, 4 u √(a m) / s: < 2⁻⁷⁵.
+//! 2 s² > 2⁻¹⁶ a m. A root by the bounds of the plain step, but with this power, errs by e < 2⁻³³ of itself. It is corrected by
+//! one step of Newton's. What the root errs by after that comes from these, as a part of itself:
+//!
+//! ```text
+//! the power           what it errs by, as a part of itself
+//! the curvature       e² a t / 2 s, where a t < s / 29              < 2⁻⁷¹
+//! the slope           e times what it errs by, 4 u √(a m) / s       < 2⁻⁷⁵
+//! compensated a, h    32 v √(a m) / 2 s                             < 2⁻⁹⁰
+//! the rest            a few v
+//! ```
 
 use glam::DVec3;
 
@@ -40,6 +47,8 @@ pub(super) fn power_in_pairs(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) 
     let distance_squared = compensated_dot(o, o);
     let difference = two_difference(distance_squared.hi, radius_squared.hi);
     let low = (distance_squared.lo - radius_squared.lo) + 2.0 * o.dot(o_low);
+    // Where the difference is smaller than the low part, at most 8 u m, it is that of squares within twice each other, and so a
+    // multiple of 2⁻⁵⁴ m, far above the last place of the low part.
     let power = fast_two_sum(difference.hi, difference.lo + low);
     (power, distance_squared.hi.max(radius_squared.hi))
 }
@@ -47,8 +56,8 @@ pub(super) fn power_in_pairs(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) 
 /// o·o - r², and how far off that may be, which is not at all where that is 0.
 ///
 /// First in pairs. Where their error is much of the power, what cancels is added up by two sums whose errors are kept: of the
-/// leading terms, and of the at most 10 u m in the low parts and errors of these. The rest, at most 93 v m, is added up plainly, and
-/// errs by 1,400 u³ m. Where that is still much, by what there really is of a rest: with coordinates of few digits, nothing.
+/// leading terms, and of the at most 10 u m in the low parts and errors of these. The rest, at most 93 v m, is added up plainly,
+/// and errs by 1,400 u³ m. Where that is still much, by what there really is of a rest: with coordinates of few digits, nothing.
 #[inline(always)]
 pub(super) fn power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
     const CLOSE_ERROR: f64 = 1500.0 * U * V;
@@ -68,18 +77,17 @@ pub(super) fn power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
 }
 
 /// The same, with an error of what there is of a rest: for where the power is likely to be 0, or next to it.
+///
+/// It is 0 for sure only where every term is exact: where o is a number in each coordinate, and no square underflows.
 #[cold]
 #[inline(never)]
 pub(super) fn closest_power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
-    /// Of the rest's terms, which are added up in 14 operations.
+    /// Of the rest's terms. The first of the low sums' errors passes most additions: 8 of the others, that of the smaller terms,
+    /// and that to the low part of the whole, 10 in all. The magnitudes are rounded as often, which is of the second order.
     const REST_ERROR: f64 = 16.0 * U;
     let (power, rest) = Terms::new(exact_o, radius).sum();
-    let is_zero = power.hi == 0.0
-        && rest == 0.0
-        && is_whole(radius)
-        && is_whole(exact_o.x.hi)
-        && is_whole(exact_o.y.hi)
-        && is_whole(exact_o.z.hi);
+    let Triple { x, y, z } = exact_o.map(|o| o.lo == 0.0 && is_whole(o.hi));
+    let is_zero = power.hi == 0.0 && rest == 0.0 && is_whole(radius) && x && y && z;
     // The least is for what may underflow.
     let error = REST_ERROR * rest + 2.0 * V * power.hi.abs() + f64::MIN_POSITIVE;
     (power, if is_zero { 0.0 } else { error })
@@ -180,8 +188,8 @@ pub(super) fn small_root(
 
 /// The hit at the small root, if that and its relative error make certain how it is rounded.
 ///
-/// A product of the root and a coordinate of the direction errs by 4 v besides; of the low parts of a sum two additions are rounded, and
-/// that of the error. No coordinate of o is above 1.1 r, and the way is a seventeenth of r.
+/// A product of the root and a coordinate of the direction errs by 4 v besides; of the low parts of a sum two additions are
+/// rounded, and that of the error. No coordinate of o is above 1.1 r, and the way is a seventeenth of r.
 #[inline(always)]
 pub(super) fn hit(
     line: Line,

@@ -1,6 +1,6 @@
 use core::cmp::Ordering;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::crossing::Side;
 use super::format::PointTolerance;
@@ -10,6 +10,7 @@ use crate::arithmetic::scaling::scale;
 use crate::testing::{
     Dyadic, ExactChord, Lie, Neighbors, Random, nearest, part_of_bound, setting, total,
 };
+use crate::{Hittable, Ray, Sphere};
 
 /// The line and the sphere of the coordinates of center, origin and direction, and the radius.
 pub(super) fn line(numbers: [f64; 10]) -> Line {
@@ -438,6 +439,41 @@ fn what_is_no_ray_or_no_sphere_is_not_hit() {
             // The same from inside.
             numbers[0] = 0.5;
             check(numbers);
+        }
+    }
+}
+
+#[test]
+fn what_is_rounded_up_to_the_smallest_normal_number_is_no_double_rounding() {
+    // Midway between the largest subnormal number and the smallest normal one is 1 - 2^-24 of that, a number of a normal's digits: here
+    // it is c - r, in units of the direction, and the origin is ahead by what `f64` does not see.
+    let ulp = f32::EPSILON;
+    let sphere = Sphere::new(Vec3::X * (2.0 - ulp), 1.0 - ulp / 2.0);
+    let (largest_subnormal, smallest_normal) =
+        (f32::from_bits(f32::MIN_POSITIVE.to_bits() - 1), f32::MIN_POSITIVE);
+    let direction = Vec3::X * 2_f32.powi(126);
+    for (ahead, near) in
+        [(0.0, smallest_normal), (1e-20, largest_subnormal), (-1e-20, smallest_normal)]
+    {
+        let ray = Ray::new(Vec3::X * ahead, direction);
+        let back = Ray::new(Vec3::X * ahead, -direction);
+        assert_eq!(sphere.roots_algebraic(&ray).map(|[near, _]| near), Some(near));
+        assert_eq!(sphere.roots_geometric(&ray).map(|[near, _]| near), Some(near));
+        assert_eq!(sphere.roots_algebraic(&back).map(|[_, far]| far), Some(-near));
+        let hit = sphere.intersect(&ray, 0.0..f32::INFINITY);
+        assert_eq!(hit.map(|hit| hit.t), Some(near), "{ahead}");
+    }
+    // The same of `f64`, where pairs are scaled.
+    let ulp = f64::EPSILON;
+    let numbers = |ahead: f64| {
+        let direction = 2_f64.powi(1022);
+        [2.0 - ulp, 0.0, 0.0, ahead, 0.0, 0.0, direction, 0.0, 0.0, 1.0 - ulp / 2.0]
+    };
+    for ahead in [0.0, 1e-40, -1e-40] {
+        for (side, index) in [(Side::Near, 0), (Side::Far, 1)] {
+            let expected = exact_root(Format::F64, numbers(ahead), side);
+            let found = both(numbers(ahead), Format::F64).expect("this hits")[index];
+            assert_eq!(found, expected, "{ahead} {side:?}");
         }
     }
 }

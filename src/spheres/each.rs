@@ -5,35 +5,41 @@ use core::ops::Range;
 use super::filter::is_in_reach;
 use super::hierarchy::Shape;
 use super::lanes::Lanes;
+use super::local::{above, narrow, to_f32};
+use super::middle::Middle;
 use super::packet::bounds::{Meet, Met};
-use super::packet::{Mask, Packet, Question, RAYS};
+use super::packet::{Around, Mask, Packet, Question, RAYS};
 use super::scan::Bits;
 use super::{SphereBvh, Spheres};
-use crate::{Hit, Hittable, Ray, Sphere};
+use crate::root::order::is_nearer;
+use crate::{Hit, Hittable, Ray, Sphere, Vector};
 
 /// What is found for each ray: which sphere, and where.
-type Found = Option<(usize, Hit)>;
+type Found<V> = Option<(usize, Hit<V>)>;
 
 /// Which sphere each ray of a packet meets first.
-struct Nearest<'a, F> {
-    rays: &'a [Ray],
-    range: &'a Range<f32>,
-    found: &'a mut [Found],
-    /// The sphere at a place, and its index.
-    member: F,
+struct Nearest<'a, V: Vector, C> {
+    collection: &'a C,
+    rays: &'a [Ray<V>],
+    range: &'a Range<V::Scalar>,
+    found: &'a mut [Found<V>],
 }
 
-impl<F: Fn(u32) -> Option<(usize, Sphere)>> Nearest<'_, F> {
+impl<V: Vector, C: Collection<V>> Nearest<'_, V, C> {
     /// Asks a ray exactly whether it meets the sphere at that place first.
     fn ask_exactly(&mut self, ray_place: usize, place: u32) {
-        let Self { rays, range, found, member } = self;
+        let Self { collection, rays, range, found } = self;
         let (Some(ray), Some(found), Some((index, sphere))) =
-            (rays.get(ray_place), found.get_mut(ray_place), member(place))
+            (rays.get(ray_place), found.get_mut(ray_place), collection.member(place))
         else {
             return;
         };
         if let Some(hit) = sphere.intersect(ray, range.clone()) {
-            if found.is_none_or(|(lowest, nearest)| (hit.t, index) < (nearest.t, lowest)) {
+            let is_first = found.is_none_or(|(other, nearest)| {
+                let spheres = || [Some(sphere), collection.sphere(other)];
+                is_nearer(ray, (index, hit.t), (other, nearest.t), spheres)
+            });
+            if is_first {
                 *found = Some((index, hit));
             }
         }
@@ -44,9 +50,9 @@ impl<F: Fn(u32) -> Option<(usize, Sphere)>> Nearest<'_, F> {
         for ray_place in Bits(packet.alive) {
             if let Some(place) = packet.nearest(ray_place) {
                 // It is certainly nearer than what was found before.
-                let Self { rays, range, found, member } = self;
+                let Self { collection, rays, range, found } = self;
                 let (Some(ray), Some(found), Some((index, sphere))) =
-                    (rays.get(ray_place), found.get_mut(ray_place), member(place))
+                    (rays.get(ray_place), found.get_mut(ray_place), collection.member(place))
                 else {
                     continue;
                 };
@@ -56,8 +62,15 @@ impl<F: Fn(u32) -> Option<(usize, Sphere)>> Nearest<'_, F> {
     }
 }
 
-impl<F: Fn(u32) -> Option<(usize, Sphere)>> Question for Nearest<'_, F> {
-    fn ask(&mut self, packet: &mut Packet, lanes: Lanes, rays: Mask, sphere: &Sphere, place: u32) {
+impl<V: Vector, C: Collection<V>> Question<V> for Nearest<'_, V, C> {
+    fn ask(
+        &mut self,
+        packet: &mut Packet,
+        lanes: Lanes,
+        rays: Mask,
+        sphere: &Sphere<V>,
+        place: u32,
+    ) {
         // Where the bounds overlap, what was known so far is needed after it.
         let doubtfully = meet(packet, lanes, rays, sphere, place).doubtfully;
         for ray_place in Bits(doubtfully) {
@@ -71,7 +84,7 @@ impl<F: Fn(u32) -> Option<(usize, Sphere)>> Question for Nearest<'_, F> {
             self.ask_exactly(ray_place, place);
             match self.found.get(ray_place) {
                 Some(Some((_, hit))) => {
-                    packet.set_nearest(ray_place, hit.t, f32::from_bits(hit.t.to_bits() + 1));
+                    packet.set_nearest(ray_place, to_f32(hit.t), to_f32(above::<V>(hit.t)));
                 }
                 _ => {}
             }
@@ -80,14 +93,21 @@ impl<F: Fn(u32) -> Option<(usize, Sphere)>> Question for Nearest<'_, F> {
 }
 
 /// Which rays of a packet meet any sphere.
-struct Occluded<'a> {
-    rays: &'a [Ray],
-    range: &'a Range<f32>,
+struct Occluded<'a, V: Vector> {
+    rays: &'a [Ray<V>],
+    range: &'a Range<V::Scalar>,
     occluded: &'a mut [bool],
 }
 
-impl Question for Occluded<'_> {
-    fn ask(&mut self, packet: &mut Packet, lanes: Lanes, rays: Mask, sphere: &Sphere, place: u32) {
+impl<V: Vector> Question<V> for Occluded<'_, V> {
+    fn ask(
+        &mut self,
+        packet: &mut Packet,
+        lanes: Lanes,
+        rays: Mask,
+        sphere: &Sphere<V>,
+        place: u32,
+    ) {
         let Met { mut surely, doubtfully } = meet(packet, lanes, rays, sphere, place);
         for ray_place in Bits(doubtfully) {
             let is_met = |ray| sphere.occludes(ray, self.range.clone());
@@ -103,48 +123,66 @@ impl Question for Occluded<'_> {
 }
 
 /// What is known of the rays that meet a sphere: nothing of one that is too large.
-fn meet(packet: &mut Packet, lanes: Lanes, rays: Mask, sphere: &Sphere, place: u32) -> Met {
+fn meet<V: Vector>(
+    packet: &mut Packet,
+    lanes: Lanes,
+    rays: Mask,
+    sphere: &Sphere<V>,
+    place: u32,
+) -> Met {
     if !is_in_reach(sphere) {
         return Met { surely: 0, doubtfully: rays };
     }
+    let sphere = &Sphere::new(narrow(sphere.center), to_f32(sphere.radius));
     lanes.run(Meet { packet, sphere, place, rays })
 }
 
 /// A collection that packets can be asked of.
-pub(super) trait Collection {
-    /// Asks all spheres that a ray of the packet may be the first to meet. Returns `false` if the rays share too little of their way.
-    fn ask<Q: Question>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) -> bool;
+pub(super) trait Collection<V: Vector> {
+    /// Where rays are asked together.
+    fn around(&self) -> Around;
+
+    /// Asks all spheres that a ray of the packet may be the first to meet. Rays that share too little of their way are left alone.
+    fn ask<Q: Question<V>>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q);
+
+    /// The sphere at an index.
+    fn sphere(&self, index: usize) -> Option<Sphere<V>>;
 
     /// The sphere at one of the places that a question is asked with, and its index.
-    fn member(&self, place: u32) -> Option<(usize, Sphere)>;
+    fn member(&self, place: u32) -> Option<(usize, Sphere<V>)>;
 
     /// Asks a single ray.
-    fn nearest_alone(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> Found;
+    fn nearest_alone(&self, lanes: Lanes, ray: &Ray<V>, range: Range<V::Scalar>) -> Found<V>;
 
     /// Asks a single ray.
-    fn occludes_alone(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> bool;
+    fn occludes_alone(&self, lanes: Lanes, ray: &Ray<V>, range: Range<V::Scalar>) -> bool;
+}
+
+/// Whether rays are asked together: the bounds of t are those of numbers in `f32`.
+const fn is_single<V: Vector>() -> bool {
+    size_of::<V::Scalar>() == size_of::<f32>()
 }
 
 /// Finds the nearest hit of each ray.
-fn nearest_each(
-    collection: &impl Collection,
+fn nearest_each<V: Vector>(
+    collection: &impl Collection<V>,
     lanes: Lanes,
-    rays: &[Ray],
-    range: &Range<f32>,
-    found: &mut [Found],
+    rays: &[Ray<V>],
+    range: &Range<V::Scalar>,
+    found: &mut [Found<V>],
 ) {
     let mut packet = Packet::EMPTY;
     for (rays, found) in pairs(rays, found) {
-        let mut asked = packet.load(lanes, rays, range);
+        let mut asked = 0;
+        if is_single::<V>() {
+            asked = packet.load(lanes, rays, range, collection.around());
+        }
         if asked != 0 {
             found.fill(None);
-            let member = |place| collection.member(place);
-            let mut question = Nearest { rays, range, found: &mut *found, member };
-            if collection.ask(lanes, &mut packet, &mut question) {
-                question.finish(&packet);
-            } else {
-                asked = 0;
-            }
+            let mut question = Nearest { collection, rays, range, found: &mut *found };
+            collection.ask(lanes, &mut packet, &mut question);
+            question.finish(&packet);
+            asked &= !packet.alone;
         }
         for ((place, ray), found) in rays.iter().enumerate().zip(found) {
             if asked >> place & 1 == 0 {
@@ -155,23 +193,24 @@ fn nearest_each(
 }
 
 /// Finds whether each ray hits anything.
-fn occludes_each(
-    collection: &impl Collection,
+fn occludes_each<V: Vector>(
+    collection: &impl Collection<V>,
     lanes: Lanes,
-    rays: &[Ray],
-    range: &Range<f32>,
+    rays: &[Ray<V>],
+    range: &Range<V::Scalar>,
     occluded: &mut [bool],
 ) {
     let mut packet = Packet::EMPTY;
     for (rays, occluded) in pairs(rays, occluded) {
-        let mut asked = packet.load(lanes, rays, range);
+        let mut asked = 0;
+        if is_single::<V>() {
+            asked = packet.load(lanes, rays, range, collection.around());
+        }
         if asked != 0 {
             occluded.fill(false);
             let mut question = Occluded { rays, range, occluded: &mut *occluded };
-            if !collection.ask(lanes, &mut packet, &mut question) {
-                // Of those that are not known to be occluded, nothing is known.
-                asked &= !packet.alive;
-            }
+            collection.ask(lanes, &mut packet, &mut question);
+            asked &= !packet.alone;
         }
         for ((place, ray), occluded) in rays.iter().enumerate().zip(occluded) {
             if asked >> place & 1 == 0 {
@@ -182,33 +221,42 @@ fn occludes_each(
 }
 
 /// The rays of each packet, and what is found for them: as many as there are of both.
-fn pairs<'a, T>(
-    rays: &'a [Ray],
+fn pairs<'a, V, T>(
+    rays: &'a [Ray<V>],
     found: &'a mut [T],
-) -> impl Iterator<Item = (&'a [Ray], &'a mut [T])> {
+) -> impl Iterator<Item = (&'a [Ray<V>], &'a mut [T])> {
     let count = rays.len().min(found.len());
     rays[..count].chunks(RAYS).zip(found[..count].chunks_mut(RAYS))
 }
 
-impl Collection for Spheres {
-    fn ask<Q: Question>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) -> bool {
-        packet.scan(lanes, self, 0, question)
+impl<V: Vector> Collection<V> for Spheres<V> {
+    fn around(&self) -> Around {
+        let Middle { center, near_squared, .. } = self.middle;
+        Around { center: narrow(center), radius_squared: near_squared }
     }
 
-    fn member(&self, place: u32) -> Option<(usize, Sphere)> {
+    fn ask<Q: Question<V>>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) {
+        packet.scan(lanes, self, 0, question);
+    }
+
+    fn sphere(&self, index: usize) -> Option<Sphere<V>> {
+        self.get(index)
+    }
+
+    fn member(&self, place: u32) -> Option<(usize, Sphere<V>)> {
         Some((place as usize, self.get(place as usize)?))
     }
 
-    fn nearest_alone(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> Found {
+    fn nearest_alone(&self, lanes: Lanes, ray: &Ray<V>, range: Range<V::Scalar>) -> Found<V> {
         self.nearest_in_lanes(lanes, ray, range)
     }
 
-    fn occludes_alone(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> bool {
+    fn occludes_alone(&self, lanes: Lanes, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         self.occludes_in_lanes(lanes, ray, range)
     }
 }
 
-impl Spheres {
+impl<V: Vector> Spheres<V> {
     /// Finds the nearest hit of each ray with `t` in `range`, and the index of its sphere: writes what [`nearest`](Self::nearest)
     /// returns for `rays[i]` to `found[i]`, bit for bit.
     ///
@@ -240,7 +288,7 @@ impl Spheres {
     /// # Ok(())
     /// # }
     /// ```
-    pub fn nearest_each(&self, rays: &[Ray], range: Range<f32>, found: &mut [Found]) {
+    pub fn nearest_each(&self, rays: &[Ray<V>], range: Range<V::Scalar>, found: &mut [Found<V>]) {
         self.nearest_each_in_lanes(Lanes::best(), rays, &range, found);
     }
 
@@ -249,7 +297,7 @@ impl Spheres {
     ///
     /// What [`nearest_each`](Self::nearest_each) says of the order of rays and of slices that differ in length holds here, too. All
     /// rays share the range: give the shadow rays to a lamp directions that end there, and `0.0..1.0`.
-    pub fn occludes_each(&self, rays: &[Ray], range: Range<f32>, occluded: &mut [bool]) {
+    pub fn occludes_each(&self, rays: &[Ray<V>], range: Range<V::Scalar>, occluded: &mut [bool]) {
         self.occludes_each_in_lanes(Lanes::best(), rays, &range, occluded);
     }
 
@@ -257,9 +305,9 @@ impl Spheres {
     pub(super) fn nearest_each_in_lanes(
         &self,
         lanes: Lanes,
-        rays: &[Ray],
-        range: &Range<f32>,
-        found: &mut [Found],
+        rays: &[Ray<V>],
+        range: &Range<V::Scalar>,
+        found: &mut [Found<V>],
     ) {
         nearest_each(self, lanes, rays, range, found);
     }
@@ -268,15 +316,15 @@ impl Spheres {
     pub(super) fn occludes_each_in_lanes(
         &self,
         lanes: Lanes,
-        rays: &[Ray],
-        range: &Range<f32>,
+        rays: &[Ray<V>],
+        range: &Range<V::Scalar>,
         occluded: &mut [bool],
     ) {
         occludes_each(self, lanes, rays, range, occluded);
     }
 }
 
-impl SphereBvh {
+impl<V: Vector> SphereBvh<V> {
     /// Finds the nearest hit of each ray with `t` in `range`, and the index of its sphere: writes what [`nearest`](Self::nearest)
     /// returns for `rays[i]` to `found[i]`, bit for bit.
     ///
@@ -308,7 +356,7 @@ impl SphereBvh {
     /// # Ok(())
     /// # }
     /// ```
-    pub fn nearest_each(&self, rays: &[Ray], range: Range<f32>, found: &mut [Found]) {
+    pub fn nearest_each(&self, rays: &[Ray<V>], range: Range<V::Scalar>, found: &mut [Found<V>]) {
         self.nearest_each_in_lanes(Lanes::best(), rays, &range, found);
     }
 
@@ -317,7 +365,7 @@ impl SphereBvh {
     ///
     /// What [`nearest_each`](Self::nearest_each) says of the order of rays and of slices that differ in length holds here, too. All
     /// rays share the range: give the shadow rays to a lamp directions that end there, and `0.0..1.0`.
-    pub fn occludes_each(&self, rays: &[Ray], range: Range<f32>, occluded: &mut [bool]) {
+    pub fn occludes_each(&self, rays: &[Ray<V>], range: Range<V::Scalar>, occluded: &mut [bool]) {
         self.occludes_each_in_lanes(Lanes::best(), rays, &range, occluded);
     }
 
@@ -325,9 +373,9 @@ impl SphereBvh {
     pub(super) fn nearest_each_in_lanes(
         &self,
         lanes: Lanes,
-        rays: &[Ray],
-        range: &Range<f32>,
-        found: &mut [Found],
+        rays: &[Ray<V>],
+        range: &Range<V::Scalar>,
+        found: &mut [Found<V>],
     ) {
         match &self.0 {
             Shape::Scan(spheres) => nearest_each(spheres, lanes, rays, range, found),
@@ -339,8 +387,8 @@ impl SphereBvh {
     pub(super) fn occludes_each_in_lanes(
         &self,
         lanes: Lanes,
-        rays: &[Ray],
-        range: &Range<f32>,
+        rays: &[Ray<V>],
+        range: &Range<V::Scalar>,
         occluded: &mut [bool],
     ) {
         match &self.0 {

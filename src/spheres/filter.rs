@@ -1,61 +1,49 @@
-//! The filter: which of 16 spheres a ray may meet, in f32 and many lanes at a time. It may let a sphere pass that the ray
-//! misses; it never drops one that it hits.
+//! The filter: which of 16 spheres a ray may meet, in `f32` and many lanes at a time, in either precision. It may let a sphere
+//! pass that the ray misses; it never drops one that it hits.
 //!
-//! A hit with t in (0, end) is a point of the segment from the ray's origin to `end`. So a sphere is dropped where that
-//! segment stays clear of its ball: where the point of the segment nearest to the center, at t = m, is farther from it than
-//! the radius. With o = c - p, h = d·o, a = d·d, and s = a m,
+//! It is the test of [`rejection`](crate::rejection), which derives it and its margins: with o = c - p, h = d·o, a = d·d, and
+//! s = h, but at least a `start` and at most a `end`, a sphere is dropped where
 //!
 //! ```text
-//! s = h, but at least 0 and at most a end
 //! |m d - o|² - r² = (o·o - r²) - T > 0,   T = 2 h m - a m² = s (2 h - s) / a
 //! ```
 //!
-//! That drops the spheres behind the origin and those beyond the nearest hit so far along with those beside the ray. For the
-//! whole line s = h and T = h² / a, which is quicker: it goes first where there are many spheres. For the half-line there is no
-//! end: that is enough where there are few.
+//! For the whole line s = h and T = h² / a, which is quicker: it goes first where there are many spheres. For the half-line there
+//! is no end: that is enough where there are few.
 //!
-//! **The error.** With u = 2⁻²⁴ and every operation rounded (a fused multiply-add rounds less),
+//! **Coordinates** are relative to a center of the collection, and rounded ([`local`](super::local)). What that makes of the
+//! center of a sphere and of the ray's origin, r has added to it: [`COORDINATE_MARGIN`], 3 u, of c. So the factor of T is in what
+//! is kept of a ray and all else in what is kept of each sphere: the loop pays nothing for the bound, and it holds wherever a
+//! sphere is.
 //!
-//! ```text
-//! o·o - r²   o twice, a product, 3 sums                 is off by at most  6 u o·o + 3 u r²
-//! h          o, a product, 2 sums                       is off by at most  4 u |o| |d|, and so T by 8 u |o| |d| m
-//! T          a 3, the quotient 1, 2 products, 2 sums    is off by at most  8 u T besides
-//! a end      a 3, a product                             is off by at most  4 u a end, and so T by 4 u T
-//! ```
-//!
-//! The last subtraction is compared with zero, and rounding it changes no sign. Now let the ray hit: o·o ≤ r² + T. With the
-//! distance q = m |d| to the point at m, that to the closest approach, h / |d| ≥ q, and that of the center from the line, at
-//! most r: |o| |d| m = q √((h / |d|)² + r²) ≤ h m + r² / 2 ≤ T + r² / 2. Together the errors are at most
-//!
-//! ```text
-//! 6 u (r² + T) + 3 u r² + 8 u (T + r² / 2) + 8 u T + 4 u T = 13 u r² + 26 u T
-//! ```
-//!
-//! So r² is made larger by [`MARGIN`], 16 u, of which its rounding leaves 15 u, and T by twice that. The rest is far more than
-//! all terms of the second order. One factor is in what is kept of each sphere and the other in what is kept of the ray: the
-//! loop pays nothing for the bound.
+//! **A moved origin.** Where a ray begins anew far ahead of its origin, `start` is below zero. Then a sphere before the new
+//! origin has h < 0 and m between h / a and 0; with d turned around, that is the case of the derivation.
 //!
 //! **The sign.** So the result is below zero for every sphere that is hit, and its sign alone says which spheres pass. It is
 //! NaN only where `end` is NaN or below zero: then nothing is hit, and any answer will do.
 //!
 //! **Overflow and underflow.** Lengths up to [`LARGEST`] and directions of 2⁻³⁰ to 2⁶⁰ keep every intermediate result finite:
-//! |o| < 2⁶², |h| < 2¹²², m < 2⁹². A product that underflows is off by 2⁻¹⁵⁰ more, which factors of 2 m, 2 |h| and
-//! 2 |o| / |d|, together below 2⁶² |o|, bring to 2⁻⁸⁸ |o|. Either |o| < 2⁻¹² and that is below [`LEAST`], which each r² has
-//! added to it, or it is far below u o·o. Larger spheres pass always, and other rays ask all.
+//! |o| < 2⁶², |h| < 2¹²², m < 2⁹². (Only a `start` and a `end` may be infinite, and then they limit nothing.) A product that
+//! underflows is off by 2⁻¹⁵⁰ more, which factors of 2 m, 2 |h| and 2 |o| / |d|, together below 2⁶² |o|, bring to 2⁻⁸⁸ |o|.
+//! Either
+//! |o| < 2⁻¹² and that is below `LEAST`, which each r² has added to it, or it is far below u o·o. Larger spheres pass always, and
+//! other rays ask all.
 
 use glam::{Vec3, Vec4};
 
 use super::lanes::{Instructions, LANES};
-use crate::{Ray, Sphere};
+use super::local::{Moved, local_end, narrow, round_up, to_f32};
+use crate::rejection::{Bounds, can_be_hit};
+use crate::{Scalar, Sphere, Vector};
 
 /// How many spheres are few: those of one vector of four.
 pub(crate) const FEW: usize = 4;
 
-/// By which part of themselves r², and by twice of which T, is made larger: 16 u. See the derivation above.
-pub(crate) const MARGIN: f32 = 8.0 * f32::EPSILON;
+/// By which part of themselves r², and by twice of which T, is made larger.
+pub(crate) const MARGIN: f32 = f32::MARGIN;
 
-/// What is added to every r²: more than underflow can take from it.
-const LEAST: f64 = f64::from_bits((1023 - 99) << 52); // 2^-99
+/// What r has added to it for rounded coordinates, in the sum of those of the center, which is no less than its distance: 3 u.
+const COORDINATE_MARGIN: f64 = 1.5 * f32::EPSILON as f64;
 
 /// The largest coordinate, radius and length that the filter computes with.
 pub(super) const LARGEST: f32 = f32::from_bits((127 + 60) << 23); // 2^60
@@ -86,15 +74,22 @@ impl Block {
         negative_radius_squared: [f32::INFINITY; LANES],
     };
 
-    /// Puts a sphere into a lane.
-    pub(crate) fn set(&mut self, lane: usize, sphere: &Sphere, margin: f32) {
-        let Sphere { center, radius } = *sphere;
-        let (center, negative_radius_squared) = if !can_be_met(sphere) {
-            // Nothing meets it.
+    /// Puts a sphere into a lane, with coordinates relative to `middle`.
+    pub(crate) fn set<V: Vector>(
+        &mut self,
+        lane: usize,
+        sphere: &Sphere<V>,
+        middle: V,
+        margin: f32,
+    ) {
+        let center = narrow(sphere.center - middle);
+        let (center, negative_radius_squared) = if !can_be_hit(sphere) {
             (Vec3::ZERO, f32::INFINITY)
-        } else if !is_in_reach(sphere) {
+        } else if !(center.abs().max_element() <= LARGEST && to_f32(sphere.radius) <= LARGEST) {
             (Vec3::ZERO, f32::NEG_INFINITY)
         } else {
+            let distance: f64 = center.abs().element_sum().into();
+            let radius = sphere.radius.into() + distance * COORDINATE_MARGIN;
             (center, -enlarged_square(radius, margin))
         };
         self.x[lane] = center.x;
@@ -129,7 +124,7 @@ impl Block {
         for (lane, clearance) in clearance.iter_mut().enumerate() {
             let (power, h) = self.power_and_h(instructions, lane, segment);
             // Comparisons that are one instruction each: `f32::clamp` looks for NaN.
-            let s = if h > 0.0 { h } else { 0.0 };
+            let s = if h > segment.shortest { h } else { segment.shortest };
             let s = if s < longest { s } else { longest };
             *clearance = instructions.multiply_add(s * segment.one_over_a, (s - h) - h, power);
         }
@@ -181,21 +176,15 @@ impl Block {
     }
 }
 
-/// Whether anything can meet the sphere.
-pub(super) fn can_be_met(sphere: &Sphere) -> bool {
-    sphere.center.is_finite() && (0.0..f32::INFINITY).contains(&sphere.radius)
+/// Whether the filters can compute with a sphere that can be hit.
+pub(super) fn is_in_reach<V: Vector>(sphere: &Sphere<V>) -> bool {
+    narrow(sphere.center).abs().max_element() <= LARGEST && to_f32(sphere.radius) <= LARGEST
 }
 
-/// Whether the filter can compute with a sphere that can be met.
-pub(super) fn is_in_reach(sphere: &Sphere) -> bool {
-    sphere.center.abs().max_element() <= LARGEST && sphere.radius <= LARGEST
-}
-
-/// r², made larger by `margin` of itself and by [`LEAST`].
-#[expect(clippy::cast_possible_truncation, reason = "the margin has room for rounding")]
-fn enlarged_square(radius: f32, margin: f32) -> f32 {
-    let radius = f64::from(radius);
-    (radius * radius * (1.0 + f64::from(margin)) + LEAST) as f32
+/// r², made larger by `margin` of itself and by what underflow can take from it.
+fn enlarged_square(radius: f64, margin: f32) -> f32 {
+    // The margin has room for rounding.
+    to_f32(radius * radius * (1.0 + f64::from(margin)) + f64::from(f32::LEAST))
 }
 
 /// What the filter knows of a ray.
@@ -207,21 +196,42 @@ pub(crate) struct Segment {
     a: f32,
     /// 1 / d·d, made larger.
     one_over_a: f32,
+    /// a times the t at which the segment begins, made smaller.
+    shortest: f32,
+    /// Where on the ray its origin is.
+    moved: f64,
 }
 
 impl Segment {
-    /// Whether the filter can compute with that ray: of a NaN, it cannot.
+    /// Whether the filters can compute with a ray of that origin, no farther from the center than the root of `farthest_squared`,
+    /// and of that direction: of a NaN, they cannot.
     #[inline(always)]
-    pub(crate) fn allows(ray: &Ray) -> bool {
-        let a = ray.direction.length_squared();
-        ray.origin.length_squared() + a <= LARGEST * LARGEST && a >= LEAST_SQUARE
+    pub(crate) fn allows(origin: Vec3, direction: Vec3, farthest_squared: f32) -> bool {
+        let a = direction.length_squared();
+        origin.length_squared() <= farthest_squared
+            && (LEAST_SQUARE..=LARGEST * LARGEST).contains(&a)
     }
 
+    /// Of a ray, its origin relative to the center.
     #[inline(always)]
-    pub(crate) fn new(ray: &Ray, margin: f32) -> Self {
-        let Ray { origin, direction } = *ray;
+    pub(crate) fn new(origin: Vec3, direction: Vec3, margin: f32) -> Self {
         let a = direction.length_squared();
-        Self { origin, direction, a, one_over_a: (1.0 + 2.0 * margin) / a }
+        let one_over_a = (1.0 + 2.0 * margin) / a;
+        Self { origin, direction, a, one_over_a, shortest: 0.0, moved: 0.0 }
+    }
+
+    /// Of a ray that begins anew.
+    pub(crate) fn moved(Moved { t, origin }: Moved, direction: Vec3, margin: f32) -> Self {
+        let mut segment = Self::new(origin.as_vec3(), direction, margin);
+        segment.shortest = -round_up(t) * segment.a;
+        segment.moved = t;
+        segment
+    }
+
+    /// The end of a range, where t counts from the segment's origin.
+    #[inline(always)]
+    pub(crate) fn end<S: Scalar>(&self, end: S) -> f32 {
+        local_end(end, self.moved)
     }
 }
 
@@ -231,8 +241,8 @@ mod tests {
     use sobol_burley::sample;
 
     use super::*;
-    use crate::Hittable;
     use crate::spheres::lanes::{Lanes, Vectorized};
+    use crate::{Hittable, Ray};
 
     /// A block, and whether it passes each of the tests.
     struct Tests<'a> {
@@ -279,10 +289,10 @@ mod tests {
             let ray = Ray::new(origin.as_vec3(), direction.as_vec3());
             let Some(hit) = sphere.intersect(&ray, 0.0..f32::INFINITY) else { continue };
             let mut block = Block::EMPTY;
-            block.set(LANE, &sphere, margin);
+            block.set(LANE, &sphere, Vec3::ZERO, margin);
             for end in [f32::INFINITY, f32::from_bits(hit.t.to_bits() + 1)] {
                 hits += 1;
-                let segment = Segment::new(&ray, margin);
+                let segment = Segment::new(ray.origin, ray.direction, margin);
                 let (near, near_line) = lanes.run(Tests { block: &block, segment, end });
                 let near_half_line = block.few_near_half_line(&segment);
                 assert_eq!((near | near_half_line) & !(1 << LANE), 0, "an empty lane passed");

@@ -1,10 +1,12 @@
 //! A collection of many spheres: a bounding volume hierarchy.
 
+mod bounds;
 mod boxes;
 mod build;
 mod frustum;
 mod leaf;
 mod packet;
+mod region;
 mod split;
 mod walk;
 mod wide;
@@ -14,35 +16,38 @@ use core::fmt;
 use core::ops::Range;
 
 use boxes::Boxes;
+use glam::Vec3;
 use leaf::Leaf;
+use region::Region;
 
 use super::Spheres;
 use super::lanes::Lanes;
-use crate::{Hit, Hittable, Ray, Sphere};
+use crate::{Hit, Hittable, Ray, Sphere, Vector};
 
-/// A collection of many spheres in `f32`, which finds the nearest hit with a bounding volume hierarchy (BVH).
+/// A collection of many spheres, which finds the nearest hit with a bounding volume hierarchy (BVH).
 ///
-/// It returns what [`nearest`](crate::nearest) returns for a slice of the same spheres, bit for bit: the same hit and the same index,
-/// the lowest among equal distances. It skips groups of spheres whose box the ray does not enter, or enters beyond the nearest hit
-/// so far. The error of these tests is bounded, so they never skip a sphere that is hit.
+/// It returns what [`nearest`](crate::nearest) returns for a slice of the same spheres, bit for bit: the same hit and the same
+/// index, that of the sphere in front, also where distances round to the same number. It skips groups of spheres whose box the ray does not enter, or enters beyond the
+/// nearest hit so far. The error of these tests is bounded, so they never skip a sphere that is hit.
 ///
-/// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost nothing. Up to 16 that are
-/// large compared to the extent of the others, such as the ground, are kept apart and tested with each ray. A sphere with a coordinate or a
-/// radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin is farther than 2⁶⁰ from the
-/// world's, or whose direction is longer than that or shorter than 2⁻³⁰.
+/// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost nothing. Up to 16 that
+/// are large compared to the extent of the others, such as the ground, are kept apart and tested with each ray. Where the spheres
+/// are does not matter: far from the world's origin, a few far from all others, or in clusters far apart. A sphere with a
+/// coordinate or a radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin is farther
+/// than 2⁶⁰ from the world's, or whose direction is longer than that or shorter than 2⁻³⁰.
 ///
 /// # When to use it
 ///
-/// For more than some hundred spheres that stay as they are. They cannot be changed, only collected again, which takes less than half
-/// a second for a million. It takes 26 to 32 bytes a sphere. For few spheres it is a [`Spheres`], which can also be changed one by one.
-/// (In the repository, `cargo bench --manifest-path benches/peers/Cargo.toml --bench many_spheres` measures it beside other
-/// libraries.)
+/// For more than some hundred spheres that stay as they are. They cannot be changed, only collected again, which takes less than
+/// half a second for a million. It takes 26 to 32 bytes a sphere, and at most 56 in `f64`. For few spheres it is a [`Spheres`],
+/// which can also be changed one by one. (In the repository, `cargo bench --manifest-path benches/peers/Cargo.toml --bench
+/// many_spheres` measures it beside other libraries.)
 ///
 /// # How
 ///
 /// Nodes are 16 boxes wide, and leaves 16 spheres, as wide as the widest vectors (Wald, Benthin and Boulos, *Getting Rid of
-/// Packets*, 2008). A surface-area heuristic sorts the spheres into them, and prefers to fill them. The instructions are those
-/// that [`Spheres`] uses.
+/// Packets*, 2008). Their boxes are in `f32` in both precisions, around centers of their own. A surface-area heuristic sorts the
+/// spheres into them, and prefers to fill them. The instructions are those that [`Spheres`] uses.
 ///
 /// ```
 /// use eyeray::{Ray, Sphere, SphereBvh};
@@ -59,31 +64,30 @@ use crate::{Hit, Hittable, Ray, Sphere};
 /// assert_eq!(found.map(|(index, hit)| (index, hit.t)), Some((7 * 300 + 12, 9.75)));
 /// ```
 #[derive(Clone)]
-pub struct SphereBvh(pub(super) Shape);
+pub struct SphereBvh<V: Vector = Vec3>(pub(super) Shape<V>);
 
 #[derive(Clone)]
-pub(super) enum Shape {
+pub(super) enum Shape<V: Vector> {
     /// So few that a scan is faster; or more than an index of 32 bits can tell apart.
-    Scan(Spheres),
-    Tree(Tree),
+    Scan(Spheres<V>),
+    Tree(Tree<V>),
 }
 
 /// The spheres in leaves of up to 16, and the leaves in boxes, up to 16 to a node. The children of a node lie together: first its
 /// leaves among all leaves, then its nodes among all nodes.
 #[derive(Clone, Debug)]
-pub(super) struct Tree {
-    leaves: Vec<Leaf>,
+pub(super) struct Tree<V: Vector> {
+    leaves: Vec<Leaf<V::Scalar>>,
     nodes: Vec<Boxes>,
-    /// Where a ray begins: the first of the nodes or of the leaves.
-    root: u32,
-    /// The largest coordinate of all boxes.
-    largest_coordinate: f32,
+    /// The whole tree, where a ray begins, and the parts of it that have coordinates of their own. There are none without
+    /// spheres.
+    regions: Vec<Region<V>>,
     /// The spheres whose boxes would make those of all others useless, and what cannot be computed with, by ascending index.
-    apart: Spheres,
+    apart: Spheres<V>,
     /// Their indices.
     apart_indices: Vec<u32>,
     /// The spheres that nothing can meet.
-    unreachable: Vec<Sphere>,
+    unreachable: Vec<Sphere<V>>,
     /// Where each sphere is: in a lane of a leaf, or else behind them, apart, or else unreachable.
     places: Vec<u32>,
 }
@@ -91,7 +95,7 @@ pub(super) struct Tree {
 /// The bit that tells the number of a leaf from that of a node.
 const LEAF: u32 = 1 << 31;
 
-impl SphereBvh {
+impl<V: Vector> SphereBvh<V> {
     /// Returns the number of spheres.
     #[inline]
     pub fn len(&self) -> usize {
@@ -108,22 +112,25 @@ impl SphereBvh {
     }
 
     /// Returns the sphere at `index`, or `None` if `index` is out of bounds.
-    pub fn get(&self, index: usize) -> Option<Sphere> {
+    pub fn get(&self, index: usize) -> Option<Sphere<V>> {
         match &self.0 {
             Shape::Scan(spheres) => spheres.get(index),
-            Shape::Tree(tree) => tree.at_place(*tree.places.get(index)?),
+            Shape::Tree(tree) => tree.get(index),
         }
     }
 
     /// Returns an iterator over the spheres, in the order in which they were collected.
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = Sphere> + DoubleEndedIterator + Clone + '_ {
+    pub fn iter(
+        &self,
+    ) -> impl ExactSizeIterator<Item = Sphere<V>> + DoubleEndedIterator + Clone + '_ {
         // There is a sphere at each of these indices.
         (0..self.len()).map(|index| self.get(index).unwrap_or_default())
     }
 
-    /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the lowest index.
+    /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the sphere in
+    /// front by the exact roots, and of equal exact roots the lowest index.
     #[inline]
-    pub fn nearest(&self, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
+    pub fn nearest(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<(usize, Hit<V>)> {
         match &self.0 {
             Shape::Scan(spheres) => spheres.nearest(ray, range),
             Shape::Tree(tree) => tree.nearest(Lanes::best(), ray, range),
@@ -132,7 +139,7 @@ impl SphereBvh {
 
     /// A tree, however few the spheres are.
     #[cfg(test)]
-    pub(super) fn tree(spheres: &Spheres) -> Self {
+    pub(super) fn tree(spheres: &Spheres<V>) -> Self {
         Self(Shape::Tree(Tree::new(spheres)))
     }
 
@@ -141,9 +148,9 @@ impl SphereBvh {
     pub(super) fn nearest_in_lanes(
         &self,
         lanes: Lanes,
-        ray: &Ray,
-        range: Range<f32>,
-    ) -> Option<(usize, Hit)> {
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> Option<(usize, Hit<V>)> {
         match &self.0 {
             Shape::Scan(spheres) => spheres.nearest_in_lanes(lanes, ray, range),
             Shape::Tree(tree) => tree.nearest(lanes, ray, range),
@@ -152,7 +159,12 @@ impl SphereBvh {
 
     /// [`Hittable::occludes`] with that set of instructions.
     #[cfg(test)]
-    pub(super) fn occludes_in_lanes(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> bool {
+    pub(super) fn occludes_in_lanes(
+        &self,
+        lanes: Lanes,
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> bool {
         match &self.0 {
             Shape::Scan(spheres) => spheres.occludes_in_lanes(lanes, ray, range),
             Shape::Tree(tree) => tree.occludes(lanes, ray, range),
@@ -160,27 +172,32 @@ impl SphereBvh {
     }
 }
 
-impl Tree {
+impl<V: Vector> Tree<V> {
+    /// The sphere at `index`.
+    fn get(&self, index: usize) -> Option<Sphere<V>> {
+        self.at_place(*self.places.get(index)?)
+    }
+
     /// The sphere at one of the `places`.
-    fn at_place(&self, place: u32) -> Option<Sphere> {
+    fn at_place(&self, place: u32) -> Option<Sphere<V>> {
         let place = place as usize;
-        if let Some(leaf) = self.leaves.get(place / Leaf::LANES) {
-            return Some(leaf.sphere(place % Leaf::LANES));
+        if let Some(leaf) = self.leaves.get(place / Leaf::<V::Scalar>::LANES) {
+            return Some(leaf.sphere(place % Leaf::<V::Scalar>::LANES));
         }
-        let place = place - self.leaves.len() * Leaf::LANES;
+        let place = place - self.leaves.len() * Leaf::<V::Scalar>::LANES;
         self.apart.get(place).or_else(|| self.unreachable.get(place - self.apart.len()).copied())
     }
 }
 
-impl Hittable for SphereBvh {
+impl<V: Vector> Hittable<V> for SphereBvh<V> {
     #[inline]
-    fn intersect(&self, ray: &Ray, range: Range<f32>) -> Option<Hit> {
+    fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>> {
         self.nearest(ray, range).map(|(_, hit)| hit)
     }
 
     /// Returns whether any sphere is hit, at the first one found.
     #[inline]
-    fn occludes(&self, ray: &Ray, range: Range<f32>) -> bool {
+    fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         match &self.0 {
             Shape::Scan(spheres) => spheres.occludes(ray, range),
             Shape::Tree(tree) => tree.occludes(Lanes::best(), ray, range),
@@ -189,21 +206,52 @@ impl Hittable for SphereBvh {
 }
 
 /// Creates an empty collection.
-impl Default for SphereBvh {
+impl<V: Vector> Default for SphereBvh<V> {
     fn default() -> Self {
         Self(Shape::Scan(Spheres::new()))
     }
 }
 
 /// Formats the spheres as a list, in the order in which they were collected.
-impl fmt::Debug for SphereBvh {
+impl<V: Vector> fmt::Debug for SphereBvh<V> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.debug_list().entries(self.iter()).finish()
     }
 }
 
-impl FromIterator<Sphere> for SphereBvh {
-    fn from_iter<I: IntoIterator<Item = Sphere>>(iter: I) -> Self {
-        iter.into_iter().collect::<Spheres>().into()
+/// Compares the spheres, in the order in which they were collected, as slices do.
+impl<V: Vector> PartialEq for SphereBvh<V> {
+    fn eq(&self, other: &Self) -> bool {
+        self.iter().eq(other.iter())
+    }
+}
+
+impl<V: Vector> From<Vec<Sphere<V>>> for SphereBvh<V> {
+    fn from(spheres: Vec<Sphere<V>>) -> Self {
+        Spheres::from(spheres).into()
+    }
+}
+
+impl<V: Vector, const N: usize> From<[Sphere<V>; N]> for SphereBvh<V> {
+    fn from(spheres: [Sphere<V>; N]) -> Self {
+        Spheres::from(spheres).into()
+    }
+}
+
+impl<V: Vector> From<&[Sphere<V>]> for SphereBvh<V> {
+    fn from(spheres: &[Sphere<V>]) -> Self {
+        Spheres::from(spheres).into()
+    }
+}
+
+impl<V: Vector> FromIterator<Sphere<V>> for SphereBvh<V> {
+    fn from_iter<I: IntoIterator<Item = Sphere<V>>>(iter: I) -> Self {
+        iter.into_iter().collect::<Spheres<V>>().into()
+    }
+}
+
+impl<'a, V: Vector> FromIterator<&'a Sphere<V>> for SphereBvh<V> {
+    fn from_iter<I: IntoIterator<Item = &'a Sphere<V>>>(iter: I) -> Self {
+        iter.into_iter().collect::<Spheres<V>>().into()
     }
 }

@@ -5,6 +5,8 @@ mod each;
 mod filter;
 mod hierarchy;
 mod lanes;
+mod local;
+mod middle;
 mod packet;
 mod scan;
 #[cfg(feature = "serde")]

@@ -16,9 +16,10 @@ use glam::Vec3;
 use self::cone::Cone;
 use super::filter::{LARGEST, LEAST_SQUARE};
 use super::lanes::{Instructions, LANES, Lanes, Vectorized};
+use super::local::{narrow, to_f32};
 use super::scan::{Bits, Spheres};
 use crate::float::sqrt_f32;
-use crate::{Ray, Sphere};
+use crate::{Ray, Sphere, Vector};
 
 /// How many rays a packet has at most.
 pub(super) const RAYS: usize = 64;
@@ -82,6 +83,8 @@ pub(super) struct Packet {
     count: usize,
     /// The rays that are still asked.
     pub(super) alive: Mask,
+    /// The rays that have to be asked one by one.
+    pub(super) alone: Mask,
     /// How many tests the packet may still fall behind.
     patience: i32,
     /// The first number that t may be.
@@ -101,6 +104,7 @@ impl Packet {
         sixteens: [const { Sixteen::EMPTY }; RAYS / LANES],
         count: 0,
         alive: 0,
+        alone: 0,
         patience: 0,
         first: 0.0,
         farthest: 0.0,
@@ -109,11 +113,19 @@ impl Packet {
         cone: Cone::EMPTY,
     };
 
-    /// Takes up to [`RAYS`] rays, except those that single precision cannot compute with. Returns which: none if they are too few or
-    /// too far apart, or if the range is empty.
-    pub(super) fn load(&mut self, lanes: Lanes, rays: &[Ray], range: &Range<f32>) -> Mask {
-        self.first = if range.start > 0.0 { range.start } else { LEAST_POSITIVE };
-        let is_empty = range.start.is_nan() || !(self.first < range.end);
+    /// Takes up to [`RAYS`] rays, except those that single precision cannot compute with and those from afar. Returns which: none if
+    /// they are too few or too far apart, or if the range is empty.
+    pub(super) fn load<V: Vector>(
+        &mut self,
+        lanes: Lanes,
+        rays: &[Ray<V>],
+        range: &Range<V::Scalar>,
+        around: Around,
+    ) -> Mask {
+        let [start, end] = [range.start, range.end].map(to_f32);
+        (self.alone, self.alive) = (0, 0);
+        self.first = if start > 0.0 { start } else { LEAST_POSITIVE };
+        let is_empty = start.is_nan() || !(self.first < end);
         let Some(ray) = rays.first().filter(|_| rays.len() >= FEWEST && !is_empty) else {
             return 0;
         };
@@ -128,7 +140,7 @@ impl Packet {
             }
         }
         let given = Mask::MAX >> (RAYS - rays.len().clamp(1, RAYS));
-        let allowed = given & lanes.run(Allowed(sixteens));
+        let allowed = given & lanes.run(Allowed { sixteens, around });
         if allowed == 0 {
             return 0;
         }
@@ -139,10 +151,10 @@ impl Packet {
                 sixteens[place / LANES].set(place % LANES, other);
             }
         }
-        self.farthest = range.end;
-        let extent = lanes.run(Prepare { sixteens, end: range.end });
-        (self.origins, self.directions) = (extent.origins, extent.slopes(range.end));
-        let Some(cone) = Cone::around(lanes, sixteens, &extent, self.first, range.end) else {
+        self.farthest = end;
+        let extent = lanes.run(Prepare { sixteens, end });
+        (self.origins, self.directions) = (extent.origins, extent.slopes(end));
+        let Some(cone) = Cone::around(lanes, sixteens, &extent, self.first, end) else {
             return 0;
         };
         self.cone = cone;
@@ -196,6 +208,14 @@ impl Packet {
         self.farthest = reduce(farthest, larger);
     }
 
+    /// Has these rays asked one by one.
+    pub(super) fn leave_alone(&mut self, rays: Mask) {
+        self.alone |= rays & self.alive;
+        for place in Bits(rays & self.alive) {
+            self.drop_ray(place);
+        }
+    }
+
     /// Counts what a step costs, and what it would cost the rays one by one, each as tests of 16 rays. Returns `false` where the
     /// packet is given up, because it has cost more for too long.
     #[inline(always)]
@@ -204,6 +224,9 @@ impl Packet {
         #[expect(clippy::cast_possible_wrap, reason = "both are small")]
         let gain = one_by_one as i32 - cost as i32;
         self.patience = (self.patience + gain).min(PATIENCE);
+        if self.patience < 0 {
+            self.leave_alone(self.alive);
+        }
         self.patience >= 0
     }
 
@@ -213,17 +236,18 @@ impl Packet {
         (0..RAYS / LANES).map(|number| u32::from(rays >> (number * LANES) & 0xFFFF != 0)).sum()
     }
 
-    /// Asks all spheres of a collection. Returns `false` if the rays are too far apart for that.
-    pub(super) fn scan<Q: Question>(
+    /// Asks all spheres of a collection, as far as any rays are left to be asked.
+    pub(super) fn scan<V: Vector, Q: Question<V>>(
         &mut self,
         lanes: Lanes,
-        spheres: &Spheres,
+        spheres: &Spheres<V>,
         first_place: u32,
         question: &mut Q,
-    ) -> bool {
+    ) {
+        let cone = self.cone.relative_to(narrow(spheres.middle.center));
         let mut filtered = 0;
         while let Some(blocks) = spheres.blocks.get(filtered..).filter(|rest| !rest.is_empty()) {
-            let near = cone::InBlocks { blocks, cone: &self.cone, end: self.farthest };
+            let near = cone::InBlocks { blocks, cone: &cone, end: self.farthest };
             let (skipped, near) = lanes.run(near);
             let first = (filtered + skipped) * LANES;
             for index in Bits(near.into()).map(|lane| first + lane) {
@@ -234,17 +258,23 @@ impl Packet {
             filtered += skipped + 1;
             let cost = near.count_ones() * Self::tests(self.alive);
             if !self.pays(cost, self.alive.count_ones() * (skipped as u32 + 1) / RAYS_IN_A_TEST) {
-                return false;
+                return;
             }
         }
-        true
     }
 }
 
 /// What is asked of all rays.
-pub(super) trait Question {
+pub(super) trait Question<V: Vector> {
     /// Asks whether those rays meet the sphere at that place.
-    fn ask(&mut self, packet: &mut Packet, lanes: Lanes, rays: Mask, sphere: &Sphere, place: u32);
+    fn ask(
+        &mut self,
+        packet: &mut Packet,
+        lanes: Lanes,
+        rays: Mask,
+        sphere: &Sphere<V>,
+        place: u32,
+    );
 }
 
 impl Sixteen {
@@ -261,10 +291,11 @@ impl Sixteen {
 
     /// Puts a ray into a lane.
     #[inline(always)]
-    fn set(&mut self, lane: usize, ray: &Ray) {
+    fn set<V: Vector>(&mut self, lane: usize, ray: &Ray<V>) {
+        let (origin, direction) = (narrow(ray.origin), narrow(ray.direction));
         for axis in 0..3 {
-            self.origin[axis][lane] = ray.origin[axis];
-            self.direction[axis][lane] = ray.direction[axis];
+            self.origin[axis][lane] = origin[axis];
+            self.direction[axis][lane] = direction[axis];
         }
     }
 }
@@ -288,22 +319,36 @@ fn reduce(mut numbers: [f32; LANES], choose: impl Fn(f32, f32) -> f32) -> f32 {
     numbers[0]
 }
 
-/// Finds the rays that single precision can compute with, as [`Segment::allows`](super::filter::Segment::allows) does.
-struct Allowed<'a>(&'a [Sixteen]);
+/// Where rays do not come from afar.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Around {
+    pub(super) center: Vec3,
+    pub(super) radius_squared: f32,
+}
+
+/// Finds the rays that single precision can compute with, as [`Segment::allows`](super::filter::Segment::allows) does, and that do
+/// not come from afar.
+struct Allowed<'a> {
+    sixteens: &'a [Sixteen],
+    around: Around,
+}
 
 impl Vectorized for Allowed<'_> {
     type Output = Mask;
 
     #[inline(always)]
     fn run<I: Instructions>(self, instructions: I) -> Mask {
+        let Self { sixteens, around: Around { center, radius_squared } } = self;
         let mut allowed = 0;
-        for (place, Sixteen { origin, direction, .. }) in self.0.iter().enumerate() {
+        for (place, Sixteen { origin, direction, .. }) in sixteens.iter().enumerate() {
             let mut signs = [0.0; LANES];
             let ([p, q, r], [x, y, z]) = (origin, direction);
             for lane in 0..LANES {
                 let a = square(instructions, x[lane], y[lane], z[lane]);
                 let all = a + square(instructions, p[lane], q[lane], r[lane]);
-                let is_allowed = (all <= LARGEST * LARGEST) & (a >= LEAST_SQUARE);
+                let [x, y, z] = [p[lane] - center.x, q[lane] - center.y, r[lane] - center.z];
+                let is_near = square(instructions, x, y, z) <= radius_squared;
+                let is_allowed = (all <= LARGEST * LARGEST) & (a >= LEAST_SQUARE) & is_near;
                 signs[lane] = if is_allowed { -1.0 } else { 1.0 };
             }
             allowed |= Mask::from(instructions.signs(&signs)) << (place * LANES);

@@ -5,38 +5,43 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use core::{fmt, iter, slice};
 
-use super::filter::{Block, FEW, MARGIN, Segment};
+use glam::Vec3;
+
+use super::filter::{Block, FEW, LARGEST, MARGIN, Segment};
 use super::lanes::{Instructions, LANES, Lanes, Vectorized};
+use super::local::{Approach, narrow};
+use super::middle::Middle;
 use crate::hittable::{nearest, nearest_among};
-use crate::{Hit, Hittable, Ray, Sphere};
+use crate::{Hit, Hittable, Ray, Sphere, Vector};
 
 /// How many blocks have a bit for each sphere in one word.
 const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 
-/// A collection of few or changing spheres in `f32`, which finds the nearest hit by testing many spheres at a time.
+/// A collection of few or changing spheres, which finds the nearest hit by testing many spheres at a time.
 ///
-/// It returns what [`nearest`] returns for a slice of the same spheres, bit for bit: the same hit and the same index, the lowest
-/// among equal distances. It takes less time, because most spheres are dropped in single precision, many at a time. The error of this
-/// test is bounded, so it never drops a sphere that is hit; the spheres that pass it are intersected exactly.
+/// It returns what [`nearest`] returns for a slice of the same spheres, bit for bit: the same hit and the same index, that of the
+/// sphere in front, also where distances round to the same number. It takes less time, because most spheres are dropped in single
+/// precision, many at a time, in both precisions. The error of this test is bounded, so it never drops a sphere that is hit; the
+/// spheres that pass it are intersected exactly.
 ///
-/// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost no more than others. A
-/// sphere with a coordinate or a radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin is
-/// farther than 2⁶⁰ from the world's, or whose direction is longer than that or shorter than 2⁻³⁰.
+/// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost no more than others.
+/// Where the spheres are does not matter, nor from how far away a ray comes. Only a sphere with a radius beyond 2⁶⁰, or farther
+/// than that from most others, is always intersected exactly, and so are all spheres with a ray whose origin is farther than 2⁶⁰
+/// from them, or whose direction is longer than that or shorter than 2⁻³⁰.
 ///
 /// # When to use it
 ///
-/// For two spheres or more, up to some hundred, or for any number that changes: spheres can be added, changed and removed one by one.
-/// The time of a query is proportional to their number. For more than some hundred that stay as they are,
-/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. (`cargo bench --bench spheres` measures 1
-/// to 65,536.)
+/// For two spheres or more, up to some hundred, or for any number that changes: spheres can be added, changed and removed one by
+/// one. The time of a query is proportional to their number. For more than some hundred that stay as they are,
+/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. (`cargo bench --bench spheres` measures 1 to 65,536.)
 ///
 /// # Instructions
 ///
-/// On x86-64 with the feature `std`, AVX-512 (from Rust 1.89 on) or else AVX2 and FMA are used if the machine has them. Otherwise,
-/// the instructions are those that the crate is compiled for: SSE2 on x86-64, NEON on aarch64, in WebAssembly 128-bit SIMD with
-/// `-C target-feature=+simd128`, and more with `-C target-cpu`. The results are the same. In WebAssembly, in Node.js, 1,024 spheres
-/// take 0.26 times as long as a loop over the textbook's formula, 46 take 0.4 times, and 8 as long (`tests/targets/run costs`, in
-/// the repository).
+/// On x86-64 with the feature `std`, AVX-512 (from Rust 1.89 on) or else AVX2 and FMA are used if the machine has them.
+/// Otherwise, the instructions are those that the crate is compiled for: SSE2 on x86-64, NEON on aarch64, in WebAssembly 128-bit
+/// SIMD with `-C target-feature=+simd128`, and more with `-C target-cpu`. The results are the same. In WebAssembly, in Node.js,
+/// 1,024 spheres take 0.26 times as long as a loop over the textbook's formula, 46 take 0.4 times, and 8 as long
+/// (`tests/targets/run costs`, in the repository).
 ///
 /// ```
 /// use eyeray::{Ray, Sphere, Spheres};
@@ -54,18 +59,23 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 /// assert_eq!(found.map(|(index, hit)| (index, hit.t)), Some((99, 7.0)));
 /// ```
 #[derive(Clone, Default)]
-pub struct Spheres {
-    pub(super) spheres: Vec<Sphere>,
+#[expect(clippy::struct_field_names, reason = "the spheres are spheres")]
+pub struct Spheres<V: Vector = Vec3> {
+    pub(super) spheres: Vec<Sphere<V>>,
     /// The same spheres as the filter needs them.
     pub(super) blocks: Vec<Block>,
+    /// Where they are.
+    pub(super) middle: Middle<V>,
+    /// So many more changes, and where they are is found anew.
+    changes_left: usize,
 }
 
-impl Spheres {
+impl<V: Vector> Spheres<V> {
     /// Creates an empty collection.
     #[inline]
     #[must_use]
     pub const fn new() -> Self {
-        Self { spheres: Vec::new(), blocks: Vec::new() }
+        Self { spheres: Vec::new(), blocks: Vec::new(), middle: Middle::OF_NONE, changes_left: 0 }
     }
 
     /// Creates an empty collection with space for at least `capacity` spheres.
@@ -74,6 +84,7 @@ impl Spheres {
         Self {
             spheres: Vec::with_capacity(capacity),
             blocks: Vec::with_capacity(capacity.div_ceil(LANES)),
+            ..Self::new()
         }
     }
 
@@ -85,7 +96,7 @@ impl Spheres {
     }
 
     /// Appends a sphere. Its index is the number of spheres before it.
-    pub fn push(&mut self, sphere: Sphere) {
+    pub fn push(&mut self, sphere: Sphere<V>) {
         let index = self.len();
         if index % LANES == 0 {
             self.blocks.push(Block::EMPTY);
@@ -108,7 +119,7 @@ impl Spheres {
     /// assert_eq!(spheres.as_slice(), [moved]);
     /// assert_eq!(spheres.set(1, moved), None);
     /// ```
-    pub fn set(&mut self, index: usize, sphere: Sphere) -> Option<Sphere> {
+    pub fn set(&mut self, index: usize, sphere: Sphere<V>) -> Option<Sphere<V>> {
         let replaced = core::mem::replace(self.spheres.get_mut(index)?, sphere);
         self.update(index);
         Some(replaced)
@@ -128,19 +139,19 @@ impl Spheres {
     /// assert_eq!(spheres.as_slice(), [c, b]);
     /// assert_eq!(spheres.swap_remove(2), None);
     /// ```
-    pub fn swap_remove(&mut self, index: usize) -> Option<Sphere> {
+    pub fn swap_remove(&mut self, index: usize) -> Option<Sphere<V>> {
         if index >= self.len() {
             return None;
         }
         let removed = self.spheres.swap_remove(index);
-        if index < self.len() {
-            self.update(index);
-        }
         let last = self.len();
         if let Some(block) = self.blocks.last_mut() {
             block.clear(last % LANES);
         }
         self.blocks.truncate(last.div_ceil(LANES));
+        if index < last {
+            self.update(index);
+        }
         Some(removed)
     }
 
@@ -148,15 +159,37 @@ impl Spheres {
     pub fn clear(&mut self) {
         self.spheres.clear();
         self.blocks.clear();
+        self.changes_left = 0;
     }
 
-    /// Tells the filter of a sphere.
+    /// Tells the filter of a sphere that has changed.
+    ///
+    /// After as many changes as there were spheres, those may be elsewhere, and all are told anew: on average, one for a change.
     fn update(&mut self, index: usize) {
-        if let (Some(sphere), Some(block)) =
-            (self.spheres.get(index), self.blocks.get_mut(index / LANES))
-        {
-            block.set(index % LANES, sphere, MARGIN);
+        if let Some(left) = self.changes_left.checked_sub(1) {
+            self.changes_left = left;
+            if let (Some(sphere), Some(block)) =
+                (self.spheres.get(index), self.blocks.get_mut(index / LANES))
+            {
+                block.set(index % LANES, sphere, self.middle.center, MARGIN);
+            }
+        } else {
+            self.measure();
         }
+    }
+
+    /// Finds out where the spheres are, and tells the filter of all.
+    fn measure(&mut self) {
+        self.middle = Middle::of(&self.spheres);
+        self.changes_left = self.len();
+        self.blocks.clear();
+        self.blocks.extend(self.spheres.chunks(LANES).map(|spheres| {
+            let mut block = Block::EMPTY;
+            for (lane, sphere) in spheres.iter().enumerate() {
+                block.set(lane, sphere, self.middle.center, MARGIN);
+            }
+            block
+        }));
     }
 
     /// Returns the number of spheres.
@@ -173,25 +206,28 @@ impl Spheres {
 
     /// Returns the sphere at `index`, or `None` if `index` is out of bounds.
     #[inline]
-    pub fn get(&self, index: usize) -> Option<Sphere> {
+    pub fn get(&self, index: usize) -> Option<Sphere<V>> {
         self.spheres.get(index).copied()
     }
 
     /// Returns a slice of all spheres, by ascending index.
     #[inline]
-    pub fn as_slice(&self) -> &[Sphere] {
+    pub fn as_slice(&self) -> &[Sphere<V>] {
         &self.spheres
     }
 
     /// Returns an iterator over the spheres, by ascending index.
     #[inline]
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = Sphere> + DoubleEndedIterator + Clone + '_ {
+    pub fn iter(
+        &self,
+    ) -> impl ExactSizeIterator<Item = Sphere<V>> + DoubleEndedIterator + Clone + '_ {
         self.into_iter()
     }
 
-    /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the lowest index.
+    /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the sphere in
+    /// front by the exact roots, and of equal exact roots the lowest index.
     #[inline]
-    pub fn nearest(&self, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
+    pub fn nearest(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<(usize, Hit<V>)> {
         if self.len() <= FEW {
             return self.nearest_of(self.few_near(ray), ray, range);
         }
@@ -202,40 +238,74 @@ impl Spheres {
     pub(super) fn nearest_in_lanes(
         &self,
         lanes: Lanes,
-        ray: &Ray,
-        range: Range<f32>,
-    ) -> Option<(usize, Hit)> {
-        if !Segment::allows(ray) {
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> Option<(usize, Hit<V>)> {
+        let Some(segment) = self.segment(ray, range.end) else {
             return nearest(&self.spheres, ray, range);
-        }
-        let segment = Segment::new(ray, MARGIN);
+        };
         if let Some(near) = self.word_near(lanes, &segment, range.end) {
             return self.nearest_of(near, ray, range);
         }
         let mut near = Near::new(self, lanes, &segment);
-        nearest_among(ray, range, |end| near.next(end))
+        nearest_among(ray, range, |end| near.next(segment.end(end)))
     }
 
     /// [`Hittable::occludes`] with that set of instructions.
-    pub(super) fn occludes_in_lanes(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> bool {
-        if !Segment::allows(ray) {
+    pub(super) fn occludes_in_lanes(
+        &self,
+        lanes: Lanes,
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> bool {
+        let Some(segment) = self.segment(ray, range.end) else {
             return self.spheres.occludes(ray, range);
-        }
-        let segment = Segment::new(ray, MARGIN);
+        };
         if let Some(near) = self.word_near(lanes, &segment, range.end) {
             return self.any_of(near, ray, range);
         }
         let mut near = Near::new(self, lanes, &segment);
-        iter::from_fn(|| near.next(range.end))
-            .any(|(_, sphere)| sphere.occludes(ray, range.clone()))
+        let end = segment.end(range.end);
+        iter::from_fn(|| near.next(end)).any(|(_, sphere)| sphere.occludes(ray, range.clone()))
+    }
+
+    /// What the filter knows of a ray, if it can compute with that.
+    #[inline(always)]
+    fn segment(&self, ray: &Ray<V>, end: V::Scalar) -> Option<Segment> {
+        let (origin, direction) = self.relative(ray);
+        if Segment::allows(origin, direction, self.middle.near_squared) {
+            Some(Segment::new(origin, direction, MARGIN))
+        } else {
+            self.segment_from_afar(ray, end)
+        }
+    }
+
+    /// The same of one that begins far away.
+    #[cold]
+    #[inline(never)]
+    fn segment_from_afar(&self, ray: &Ray<V>, end: V::Scalar) -> Option<Segment> {
+        let (origin, direction) = self.relative(ray);
+        Segment::allows(origin, direction, LARGEST * LARGEST).then(|| {
+            let origin = ray.origin.to_f64() - self.middle.center.to_f64();
+            let extent = self.middle.extent.into();
+            let moved = Approach::new(origin, ray.direction.to_f64(), extent).moved(end.into());
+            Segment::moved(moved, direction, MARGIN)
+        })
+    }
+
+    /// The origin of a ray relative to the middle of the spheres, and its direction.
+    #[inline(always)]
+    fn relative(&self, ray: &Ray<V>) -> (Vec3, Vec3) {
+        (narrow(ray.origin - self.middle.center), narrow(ray.direction))
     }
 
     /// A bit for each of the first [`FEW`] spheres that the ray may meet, and perhaps for others.
     #[inline]
-    fn few_near(&self, ray: &Ray) -> u64 {
+    fn few_near(&self, ray: &Ray<V>) -> u64 {
+        let (origin, direction) = self.relative(ray);
         match self.blocks.first() {
-            Some(block) if Segment::allows(ray) => {
-                block.few_near_half_line(&Segment::new(ray, MARGIN)).into()
+            Some(block) if Segment::allows(origin, direction, LARGEST * LARGEST) => {
+                block.few_near_half_line(&Segment::new(origin, direction, MARGIN)).into()
             }
             Some(_) => (1 << FEW) - 1,
             None => 0,
@@ -244,37 +314,48 @@ impl Spheres {
 
     /// A bit for each sphere that the ray may meet before `end`, and perhaps for others, if a word has bits for all.
     #[inline(always)]
-    fn word_near(&self, lanes: Lanes, segment: &Segment, end: f32) -> Option<u64> {
+    fn word_near(&self, lanes: Lanes, segment: &Segment, end: V::Scalar) -> Option<u64> {
         let blocks = self.blocks.as_slice();
-        (blocks.len() <= BLOCKS_IN_A_WORD).then(|| lanes.run(&Filter { blocks, segment, end }).1)
+        (blocks.len() <= BLOCKS_IN_A_WORD)
+            .then(|| lanes.run(&Filter { blocks, segment, end: segment.end(end) }).1)
     }
 
     /// The nearest of those of the first 64 that have a bit. Where none has, that takes no call.
     #[inline(always)]
-    fn nearest_of(&self, near: u64, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
+    fn nearest_of(
+        &self,
+        near: u64,
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> Option<(usize, Hit<V>)> {
         if near == 0 { None } else { self.nearest_of_some(near, ray, range) }
     }
 
     #[inline(never)]
-    fn nearest_of_some(&self, near: u64, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
+    fn nearest_of_some(
+        &self,
+        near: u64,
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> Option<(usize, Hit<V>)> {
         let mut near = self.near(near);
         nearest_among(ray, range, |_| near.next())
     }
 
     /// Whether any of those of the first 64 that have a bit is hit.
     #[inline(always)]
-    fn any_of(&self, near: u64, ray: &Ray, range: Range<f32>) -> bool {
+    fn any_of(&self, near: u64, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         near != 0 && self.any_of_some(near, ray, range)
     }
 
     #[inline(never)]
-    fn any_of_some(&self, near: u64, ray: &Ray, range: Range<f32>) -> bool {
+    fn any_of_some(&self, near: u64, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         self.near(near).any(|(_, sphere)| sphere.occludes(ray, range.clone()))
     }
 
     /// Those of the first 64 that have a bit.
     #[inline(always)]
-    fn near(&self, near: u64) -> impl Iterator<Item = (usize, &Sphere)> {
+    fn near(&self, near: u64) -> impl Iterator<Item = (usize, &Sphere<V>)> {
         Bits(near).filter_map(|index| Some((index, self.spheres.get(index)?)))
     }
 }
@@ -294,10 +375,10 @@ impl Iterator for Bits {
 }
 
 /// The spheres that a ray may meet, and perhaps others, by ascending index.
-struct Near<'a> {
+struct Near<'a, V: Vector> {
     lanes: Lanes,
     segment: &'a Segment,
-    spheres: &'a [Sphere],
+    spheres: &'a [Sphere<V>],
     blocks: &'a [Block],
     /// How many of the blocks have been filtered.
     filtered: usize,
@@ -306,16 +387,17 @@ struct Near<'a> {
     first: usize,
 }
 
-impl<'a> Near<'a> {
+impl<'a, V: Vector> Near<'a, V> {
     // The segment by reference: to copy it just after it was written costs more than all else here.
     #[inline(always)]
-    fn new(Spheres { spheres, blocks }: &'a Spheres, lanes: Lanes, segment: &'a Segment) -> Self {
+    fn new(all: &'a Spheres<V>, lanes: Lanes, segment: &'a Segment) -> Self {
+        let Spheres { spheres, blocks, .. } = all;
         Self { lanes, segment, spheres, blocks, filtered: 0, passed: Bits(0), first: 0 }
     }
 
     /// The next one that the ray may meet before `end`.
     #[inline(always)]
-    fn next(&mut self, end: f32) -> Option<(usize, &'a Sphere)> {
+    fn next(&mut self, end: f32) -> Option<(usize, &'a Sphere<V>)> {
         loop {
             if let Some(place) = self.passed.next() {
                 let index = self.first + place;
@@ -372,15 +454,15 @@ impl Vectorized for &Filter<'_> {
     }
 }
 
-impl Hittable for Spheres {
+impl<V: Vector> Hittable<V> for Spheres<V> {
     #[inline]
-    fn intersect(&self, ray: &Ray, range: Range<f32>) -> Option<Hit> {
+    fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>> {
         self.nearest(ray, range).map(|(_, hit)| hit)
     }
 
     /// Returns whether any sphere is hit, at the first one found.
     #[inline]
-    fn occludes(&self, ray: &Ray, range: Range<f32>) -> bool {
+    fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         if self.len() <= FEW {
             return self.any_of(self.few_near(ray), ray, range);
         }
@@ -389,44 +471,54 @@ impl Hittable for Spheres {
 }
 
 /// Formats the spheres as a list.
-impl fmt::Debug for Spheres {
+impl<V: Vector> fmt::Debug for Spheres<V> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.spheres.fmt(formatter)
     }
 }
 
 /// Compares the spheres, as slices do.
-impl PartialEq for Spheres {
+impl<V: Vector> PartialEq for Spheres<V> {
     fn eq(&self, other: &Self) -> bool {
         self.spheres == other.spheres
     }
 }
 
 /// Takes the spheres without copying them.
-impl From<Vec<Sphere>> for Spheres {
-    fn from(spheres: Vec<Sphere>) -> Self {
-        let blocks = spheres
-            .chunks(LANES)
-            .map(|spheres| {
-                let mut block = Block::EMPTY;
-                for (lane, sphere) in spheres.iter().enumerate() {
-                    block.set(lane, sphere, MARGIN);
-                }
-                block
-            })
-            .collect();
-        Self { spheres, blocks }
+impl<V: Vector> From<Vec<Sphere<V>>> for Spheres<V> {
+    fn from(spheres: Vec<Sphere<V>>) -> Self {
+        let mut all = Self { spheres, ..Self::new() };
+        all.measure();
+        all
     }
 }
 
-impl FromIterator<Sphere> for Spheres {
-    fn from_iter<I: IntoIterator<Item = Sphere>>(iter: I) -> Self {
+impl<V: Vector, const N: usize> From<[Sphere<V>; N]> for Spheres<V> {
+    fn from(spheres: [Sphere<V>; N]) -> Self {
+        Vec::from(spheres).into()
+    }
+}
+
+impl<V: Vector> From<&[Sphere<V>]> for Spheres<V> {
+    fn from(spheres: &[Sphere<V>]) -> Self {
+        spheres.to_vec().into()
+    }
+}
+
+impl<V: Vector> FromIterator<Sphere<V>> for Spheres<V> {
+    fn from_iter<I: IntoIterator<Item = Sphere<V>>>(iter: I) -> Self {
         iter.into_iter().collect::<Vec<_>>().into()
     }
 }
 
-impl Extend<Sphere> for Spheres {
-    fn extend<I: IntoIterator<Item = Sphere>>(&mut self, iter: I) {
+impl<'a, V: Vector> FromIterator<&'a Sphere<V>> for Spheres<V> {
+    fn from_iter<I: IntoIterator<Item = &'a Sphere<V>>>(iter: I) -> Self {
+        iter.into_iter().copied().collect()
+    }
+}
+
+impl<V: Vector> Extend<Sphere<V>> for Spheres<V> {
+    fn extend<I: IntoIterator<Item = Sphere<V>>>(&mut self, iter: I) {
         let iter = iter.into_iter();
         let (at_least, _) = iter.size_hint();
         self.reserve(at_least);
@@ -436,9 +528,24 @@ impl Extend<Sphere> for Spheres {
     }
 }
 
-impl<'a> IntoIterator for &'a Spheres {
-    type Item = Sphere;
-    type IntoIter = iter::Copied<slice::Iter<'a, Sphere>>;
+impl<'a, V: Vector> Extend<&'a Sphere<V>> for Spheres<V> {
+    fn extend<I: IntoIterator<Item = &'a Sphere<V>>>(&mut self, iter: I) {
+        self.extend(iter.into_iter().copied());
+    }
+}
+
+impl<V: Vector> IntoIterator for Spheres<V> {
+    type Item = Sphere<V>;
+    type IntoIter = alloc::vec::IntoIter<Sphere<V>>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.spheres.into_iter()
+    }
+}
+
+impl<'a, V: Vector> IntoIterator for &'a Spheres<V> {
+    type Item = Sphere<V>;
+    type IntoIter = iter::Copied<slice::Iter<'a, Sphere<V>>>;
 
     #[inline]
     fn into_iter(self) -> Self::IntoIter {

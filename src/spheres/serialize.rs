@@ -5,30 +5,42 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{SphereBvh, Spheres};
-use crate::Sphere;
+use crate::{Sphere, Vector};
 
 /// Serializes the spheres as a list.
-impl Serialize for Spheres {
+impl<V: Vector + Serialize> Serialize for Spheres<V>
+where
+    V::Scalar: Serialize,
+{
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self)
     }
 }
 
-impl<'de> Deserialize<'de> for Spheres {
+impl<'de, V: Vector + Deserialize<'de>> Deserialize<'de> for Spheres<V>
+where
+    V::Scalar: Deserialize<'de>,
+{
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Vec::<Sphere>::deserialize(deserializer).map(Self::from)
+        Vec::<Sphere<V>>::deserialize(deserializer).map(Self::from)
     }
 }
 
 /// Serializes the spheres as a list, in the order in which they were collected. Deserializing it builds the hierarchy again.
-impl Serialize for SphereBvh {
+impl<V: Vector + Serialize> Serialize for SphereBvh<V>
+where
+    V::Scalar: Serialize,
+{
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self.iter())
     }
 }
 
-impl<'de> Deserialize<'de> for SphereBvh {
+impl<'de, V: Vector + Deserialize<'de>> Deserialize<'de> for SphereBvh<V>
+where
+    V::Scalar: Deserialize<'de>,
+{
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Vec::<Sphere>::deserialize(deserializer).map(|spheres| spheres.into_iter().collect())
+        Vec::<Sphere<V>>::deserialize(deserializer).map(Self::from)
     }
 }

@@ -4,11 +4,11 @@
 use std::ops::Range;
 use std::vec::Vec;
 
-use glam::{Vec3, vec3};
+use glam::{DVec3, Vec3, dvec3};
 
 use super::lanes::Lanes;
 use super::{SphereBvh, Spheres};
-use crate::{Hit, Hittable, Ray, Sphere, nearest};
+use crate::{Hit, Hittable, Ray, Scalar, Sphere, Vector, nearest};
 
 #[allow(
     clippy::duplicate_mod,
@@ -20,33 +20,116 @@ mod pictures;
 
 use families::{FAMILIES, Family, Rng};
 
-const ALL: Range<f32> = 0.0..f32::INFINITY;
+/// What the tests need of a precision.
+trait Tested: Vector {
+    /// A case of a family.
+    fn case(family: &Family, rng: &mut Rng) -> (Ray<Self>, Sphere<Self>);
+    /// The number of these bits, as many as it takes.
+    fn from_bits(bits: u64) -> Self::Scalar;
+    fn to_bits(number: Self::Scalar) -> u64;
+    /// The largest number and the smallest one that is not subnormal.
+    const LIMITS: [f64; 2];
+}
+
+impl Tested for Vec3 {
+    fn case(family: &Family, rng: &mut Rng) -> (Ray, Sphere) {
+        (family.f32)(rng)
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
+    fn from_bits(bits: u64) -> f32 {
+        f32::from_bits(bits as u32)
+    }
+
+    fn to_bits(number: f32) -> u64 {
+        number.to_bits().into()
+    }
+
+    const LIMITS: [f64; 2] = [f32::MAX as f64, f32::MIN_POSITIVE as f64];
+}
+
+impl Tested for DVec3 {
+    fn case(family: &Family, rng: &mut Rng) -> (Ray<DVec3>, Sphere<DVec3>) {
+        (family.f64)(rng)
+    }
+
+    fn from_bits(bits: u64) -> f64 {
+        f64::from_bits(bits)
+    }
+
+    fn to_bits(number: f64) -> u64 {
+        number.to_bits()
+    }
+
+    const LIMITS: [f64; 2] = [f64::MAX, f64::MIN_POSITIVE];
+}
+
+/// Runs the tests in both precisions.
+macro_rules! in_both {
+    ($($test:ident)+) => {
+        mod in_f32 {
+            $(#[test] fn $test() { super::$test::<glam::Vec3>(); })+
+        }
+        mod in_f64 {
+            $(#[test] fn $test() { super::$test::<glam::DVec3>(); })+
+        }
+    };
+}
+
+in_both! {
+    equals_the_slice_in_every_family_and_length
+    finds_every_sphere_alone_in_every_lane
+    finds_every_sphere_alone_at_every_scale
+    finds_every_sphere_alone_of_any_exponents
+    finds_large_spheres_from_afar
+    finds_every_sphere_wherever_it_is
+    of_equal_distances_the_lowest_index
+    of_equal_distances_the_lowest_index_of_large_and_small
+    equals_the_slice_in_a_long_run
+    a_hierarchy_keeps_what_it_is_given
+}
+
+fn all<V: Vector>() -> Range<V::Scalar> {
+    V::Scalar::ZERO..V::Scalar::INFINITY
+}
+
+fn scalar<V: Vector>(number: f64) -> V::Scalar {
+    V::Scalar::from_f64(number)
+}
+
+fn sphere<V: Vector>(center: DVec3, radius: f64) -> Sphere<V> {
+    Sphere::new(V::from_f64(center), scalar::<V>(radius))
+}
+
+fn ray<V: Vector>(origin: DVec3, direction: DVec3) -> Ray<V> {
+    Ray::new(V::from_f64(origin), V::from_f64(direction))
+}
 
 /// A hit as bits: -0.0 is not 0.0 here.
-fn bits(found: Option<(usize, Hit)>) -> Option<(usize, [u32; 7], Hit)> {
+fn bits<V: Tested>(found: Option<(usize, Hit<V>)>) -> Option<(usize, [u64; 7], Hit<V>)> {
     found.map(|(index, hit)| {
-        let [a, b, c] = hit.point.to_array();
-        let [d, e, f] = hit.normal.to_array();
-        (index, [hit.t, a, b, c, d, e, f].map(f32::to_bits), hit)
+        let [a, b, c] = hit.point.to_f64().to_array().map(f64::to_bits);
+        let [d, e, f] = hit.normal.to_f64().to_array().map(f64::to_bits);
+        (index, [V::to_bits(hit.t), a, b, c, d, e, f], hit)
     })
 }
 
 /// The same spheres as all three hold them.
-struct Scene {
-    slice: Vec<Sphere>,
-    scan: Spheres,
+struct Scene<V: Vector> {
+    slice: Vec<Sphere<V>>,
+    scan: Spheres<V>,
     /// A hierarchy, however few they are.
-    bvh: SphereBvh,
+    bvh: SphereBvh<V>,
 }
 
-impl Scene {
-    fn new(slice: Vec<Sphere>) -> Self {
+impl<V: Tested> Scene<V> {
+    fn new(slice: Vec<Sphere<V>>) -> Self {
         let scan = Spheres::from(slice.clone());
         Self { bvh: SphereBvh::tree(&scan), scan, slice }
     }
 
     #[track_caller]
-    fn assert_same(&self, ray: &Ray, range: &Range<f32>) {
+    fn assert_same(&self, ray: &Ray<V>, range: &Range<V::Scalar>) {
         let Self { slice, scan, bvh } = self;
         let expected = bits(nearest(slice, ray, range.clone()));
         for lanes in Lanes::available() {
@@ -69,90 +152,102 @@ fn choose<T: Copy>(rng: &mut Rng, values: &[T]) -> T {
 }
 
 /// Numbers that a scene should not have.
-const HOSTILE: [f32; 17] = [
-    f32::NAN,
-    f32::INFINITY,
-    f32::NEG_INFINITY,
-    0.0,
-    -0.0,
-    -1.0,
-    1e38,
-    -1e38,
-    f32::MAX,
-    f32::from_bits(1),
-    f32::MIN_POSITIVE,
-    1e-30,
-    -1e-30,
-    1e-22,
-    1.2e18, // above 2^60
-    1.1e18, // below
-    1.0,
-];
+fn hostile_number<V: Tested>(rng: &mut Rng) -> V::Scalar {
+    let [largest, least] = V::LIMITS;
+    scalar::<V>(choose(
+        rng,
+        &[
+            f64::NAN,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            0.0,
+            -0.0,
+            -1.0,
+            1e38,
+            -1e38,
+            largest,
+            V::from_bits(1).into(),
+            least,
+            1e-30,
+            -1e-30,
+            1e-22,
+            1.2e18, // above 2^60
+            1.1e18, // below
+            1.0,
+        ],
+    ))
+}
 
-fn hostile(rng: &mut Rng) -> Vec3 {
-    [(); 3].map(|()| choose(rng, &HOSTILE)).into()
+fn hostile<V: Tested>(rng: &mut Rng) -> V {
+    V::from_f64([(); 3].map(|()| hostile_number::<V>(rng).into()).into())
 }
 
 /// A member of a scene for a ray of a case of that family.
-fn member(rng: &mut Rng, family: &Family, of_case: Sphere) -> Sphere {
+fn member<V: Tested>(rng: &mut Rng, family: &Family, of_case: Sphere<V>) -> Sphere<V> {
     let mut sphere = of_case;
     match rng.below(10) {
         // The very sphere: equal distances.
         0 | 1 => {}
         // Nearly: the same with one number a few units in the last place off.
         2..=4 => {
-            let mut numbers = [sphere.center.x, sphere.center.y, sphere.center.z, sphere.radius];
+            let [x, y, z] = sphere.center.to_f64().to_array().map(scalar::<V>);
+            let mut numbers = [x, y, z, sphere.radius];
             let place = choose(rng, &[0, 1, 2, 3]);
-            let step = choose(rng, &[1_u32, 2, 3, u32::MAX, u32::MAX - 1]);
-            numbers[place] = f32::from_bits(numbers[place].to_bits().wrapping_add(step));
-            sphere = Sphere::new(vec3(numbers[0], numbers[1], numbers[2]), numbers[3]);
+            let step = choose(rng, &[1, 2, 3, u64::MAX, u64::MAX - 1]);
+            numbers[place] = V::from_bits(V::to_bits(numbers[place]).wrapping_add(step));
+            let [x, y, z, radius] = numbers;
+            sphere = Sphere::new(V::from_f64([x, y, z].map(Into::into).into()), radius);
         }
         // Others of the family.
-        5 | 6 => (_, sphere) = (family.f32)(rng),
+        5 | 6 => (_, sphere) = V::case(family, rng),
         7 => {
             let family = choose(rng, FAMILIES);
-            (_, sphere) = (family.f32)(rng);
+            (_, sphere) = V::case(&family, rng);
         }
-        8 => sphere.radius = choose(rng, &HOSTILE),
-        _ => sphere = Sphere::new(hostile(rng), choose(rng, &HOSTILE)),
+        8 => sphere.radius = hostile_number::<V>(rng),
+        _ => sphere = Sphere::new(hostile(rng), hostile_number::<V>(rng)),
     }
     sphere
 }
 
 /// The float after a positive one.
-fn above(t: f32) -> f32 {
-    if t > 0.0 && t < f32::INFINITY { f32::from_bits(t.to_bits() + 1) } else { t }
+fn above<V: Tested>(t: V::Scalar) -> V::Scalar {
+    if t > V::Scalar::ZERO && t < V::Scalar::INFINITY { V::from_bits(V::to_bits(t) + 1) } else { t }
 }
 
 /// Ranges that hold all, that begin or end at a hit, and that are none.
-fn ranges(rng: &mut Rng, slice: &[Sphere], ray: &Ray) -> Vec<Range<f32>> {
-    let mut ranges = vec![ALL, f32::NEG_INFINITY..f32::MAX];
-    let first = nearest(slice, ray, ALL).map(|(_, hit)| hit.t);
+fn ranges<V: Tested>(rng: &mut Rng, slice: &[Sphere<V>], ray: &Ray<V>) -> Vec<Range<V::Scalar>> {
+    let mut ranges = vec![all::<V>(), -V::Scalar::INFINITY..scalar::<V>(V::LIMITS[0])];
+    let first = nearest(slice, ray, all::<V>()).map(|(_, hit)| hit.t);
     let other = (!slice.is_empty())
         .then(|| choose(rng, slice))
         .and_then(|sphere| sphere.roots_algebraic(ray))
         .map(|roots| roots[1]);
     for t in first.into_iter().chain(other) {
+        let above = above::<V>(t);
         ranges.extend([
-            t..f32::INFINITY,
-            above(t)..f32::INFINITY,
-            0.0..t,
-            0.0..above(t),
-            t..above(t),
-            above(t)..t,
+            t..V::Scalar::INFINITY,
+            above..V::Scalar::INFINITY,
+            V::Scalar::ZERO..t,
+            V::Scalar::ZERO..above,
+            t..above,
+            above..t,
         ]);
     }
-    let numbers: Vec<f32> = first.into_iter().chain(other).chain(HOSTILE).collect();
-    ranges.push(choose(rng, &numbers)..choose(rng, &numbers));
+    let mut number = || match rng.below(3) {
+        0 => first.or(other).unwrap_or_default(),
+        1 => other.or(first).unwrap_or_default(),
+        _ => hostile_number::<V>(rng),
+    };
+    ranges.push(number()..number());
     ranges
 }
 
-#[test]
-fn equals_the_slice_in_every_family_and_length() {
+fn equals_the_slice_in_every_family_and_length<V: Tested>() {
     for (seed, family) in (1..).zip(FAMILIES) {
         let mut rng = Rng::new(seed);
         for length in (0..=70).chain([255, 256, 257, 272, 273]) {
-            let (ray, sphere) = (family.f32)(&mut rng);
+            let (ray, sphere) = V::case(family, &mut rng);
             let scene = Scene::new((0..length).map(|_| member(&mut rng, family, sphere)).collect());
             for range in ranges(&mut rng, &scene.slice, &ray) {
                 scene.assert_same(&ray, &range);
@@ -162,51 +257,52 @@ fn equals_the_slice_in_every_family_and_length() {
 }
 
 /// Whether the sphere is found among `count` that are not in its way: nothing nearer hides that a filter drops it.
-fn assert_found_alone(rng: &mut Rng, count: usize, ray: &Ray, sphere: Sphere) {
-    let mut slice: Vec<Sphere> = (0..count)
+fn assert_found_alone<V: Tested>(rng: &mut Rng, count: usize, ray: &Ray<V>, sphere: Sphere<V>) {
+    let around = sphere.radius.into() * 4.0;
+    let behind = (ray.origin - ray.direction).to_f64();
+    let mut slice: Vec<Sphere<V>> = (0..count)
         .map(|_| match rng.below(3) {
-            0 => Sphere::new(Vec3::ZERO, -1.0),
+            0 => Sphere::new(V::ZERO, -V::Scalar::ONE),
             // Points, which a line hardly ever goes through, so that the hierarchy has more than one box.
-            1 => Sphere::new(
-                sphere.center + rng.unit_vector().as_vec3() * (sphere.radius * 4.0),
-                0.0,
-            ),
-            _ => Sphere::new(ray.at(-1.0) + rng.unit_vector().as_vec3() * 1e-3, 0.0),
+            1 => self::sphere(sphere.center.to_f64() + rng.unit_vector() * around, 0.0),
+            _ => self::sphere(behind + rng.unit_vector() * 1e-3, 0.0),
         })
         .collect();
     let index = usize::try_from(rng.below(count as u64)).unwrap_or(0);
     slice[index] = sphere;
-    let scene = Scene::new(slice);
-    scene.assert_same(ray, &ALL);
-    if let Some(hit) = sphere.intersect(ray, ALL) {
-        scene.assert_same(ray, &(0.0..above(hit.t)));
-        scene.assert_same(ray, &(hit.t..f32::INFINITY));
+    assert_found(rng, &Scene::new(slice), ray, sphere);
+}
+
+/// Asks for a sphere of a scene in some ranges, and from where it is hit.
+fn assert_found<V: Tested>(rng: &mut Rng, scene: &Scene<V>, ray: &Ray<V>, sphere: Sphere<V>) {
+    scene.assert_same(ray, &all::<V>());
+    if let Some(hit) = sphere.intersect(ray, all::<V>()) {
+        scene.assert_same(ray, &(V::Scalar::ZERO..above::<V>(hit.t)));
+        scene.assert_same(ray, &(hit.t..V::Scalar::INFINITY));
         let spawned = hit.spawn(choose(rng, &[hit.normal, -hit.normal, ray.direction]));
-        scene.assert_same(&spawned, &ALL);
+        scene.assert_same(&spawned, &all::<V>());
     }
 }
 
-#[test]
-fn finds_every_sphere_alone_in_every_lane() {
+fn finds_every_sphere_alone_in_every_lane<V: Tested>() {
     for (seed, family) in (1..).zip(FAMILIES) {
         let mut rng = Rng::new(seed);
         for _ in 0..200 {
-            let (ray, sphere) = (family.f32)(&mut rng);
+            let (ray, sphere) = V::case(family, &mut rng);
             assert_found_alone(&mut rng, 70, &ray, sphere);
             assert_found_alone(&mut rng, 4, &ray, sphere);
         }
     }
 }
 
-#[test]
-fn finds_every_sphere_alone_at_every_scale() {
+fn finds_every_sphere_alone_at_every_scale<V: Tested>() {
     // Far beyond what the filters compute with: lengths up to 2^60, directions from 2^-30 to 2^60.
-    let power_of_two = |exponent: i16| f32::from(exponent).exp2();
+    let power_of_two = |exponent: i16| scalar::<V>(f64::from(exponent).exp2());
     let mut rng = Rng::new(1);
     for family in FAMILIES.iter().filter(|family| ["easy", "grazing"].contains(&family.name)) {
         for scale in (-90..=90).step_by(3).map(power_of_two) {
             for stretch in (-80..=62).step_by(2).map(power_of_two) {
-                let (ray, sphere) = (family.f32)(&mut rng);
+                let (ray, sphere) = V::case(family, &mut rng);
                 let ray = Ray::new(ray.origin * scale, ray.direction * stretch);
                 let sphere = Sphere::new(sphere.center * scale, sphere.radius * scale);
                 assert_found_alone(&mut rng, 35, &ray, sphere);
@@ -216,18 +312,40 @@ fn finds_every_sphere_alone_at_every_scale() {
     }
 }
 
-#[test]
-fn finds_large_spheres_from_afar() {
+/// Exponents over the whole range of the precision, of each number by itself.
+fn finds_every_sphere_alone_of_any_exponents<V: Tested>() {
+    let [largest, least] = V::LIMITS.map(f64::log2);
+    let mut rng = Rng::new(2);
+    let mut hits = 0;
+    for case in 0..3000 {
+        // A third within what the filters compute with, a third around its limits.
+        let (low, high) = [(least, largest), (-70.0, 70.0), (-30.0, 50.0)][case % 3];
+        let mut power = || rng.uniform(low, high).exp2();
+        let [size, distance, length] = [power(), power(), power()];
+        let center = rng.unit_vector() * rng.uniform(low, high).exp2();
+        let target = center + rng.unit_vector() * size * rng.uniform(0.0, 1.000_001);
+        let away = rng.unit_vector();
+        let ray = ray::<V>(target - away * distance, away * length);
+        let sphere = sphere::<V>(center, size);
+        hits += u32::from(sphere.occludes(&ray, all::<V>()));
+        assert_found_alone(&mut rng, 40, &ray, sphere);
+        assert_found_alone(&mut rng, 3, &ray, sphere);
+    }
+    assert!(hits > 500, "{hits}");
+}
+
+fn finds_large_spheres_from_afar<V: Tested>() {
     // The square of the distance overflows from 2^64 on, where the spheres are still of a size that the filters compute with.
     let mut rng = Rng::new(1);
     let mut hits = 0;
     for distance in 50..=82_i16 {
         for _ in 0..50 {
-            let direction = rng.unit_vector().as_vec3() * 1e-5;
-            let sphere = Sphere::new(rng.unit_vector().as_vec3() * 59_f32.exp2(), 59_f32.exp2());
-            let origin = sphere.center - direction * f32::from(distance).exp2() * 1e5;
-            let ray = Ray::new(origin, direction);
-            hits += u32::from(sphere.occludes(&ray, ALL));
+            let direction = rng.unit_vector() * 1e-5;
+            let center = rng.unit_vector() * 59_f64.exp2();
+            let origin = center - direction * f64::from(distance).exp2() * 1e5;
+            let ray = ray::<V>(origin, direction);
+            let sphere = sphere(center, 59_f64.exp2());
+            hits += u32::from(sphere.occludes(&ray, all::<V>()));
             assert_found_alone(&mut rng, 70, &ray, sphere);
             assert_found_alone(&mut rng, 4, &ray, sphere);
         }
@@ -235,39 +353,85 @@ fn finds_large_spheres_from_afar() {
     assert!(hits > 1000, "{hits}");
 }
 
-#[test]
-fn of_equal_distances_the_lowest_index() {
-    let ray = Ray::new(Vec3::ZERO, Vec3::X);
-    let sphere = Sphere::new(Vec3::X * 3.0, 1.0);
+/// A scene in the middle of nowhere, with strays and clusters far from each other, seen from near, from afar and from between.
+fn finds_every_sphere_wherever_it_is<V: Tested>() {
+    let mut rng = Rng::new(5);
+    let (mut asked, mut hits) = (0, 0);
+    for turn in 0..600 {
+        let far = |rng: &mut Rng| 10_f64.powf(rng.uniform(0.0, 8.0));
+        let world = rng.unit_vector() * if turn % 3 == 0 { 0.0 } else { far(&mut rng) };
+        let scale = 10_f64.powf(rng.uniform(-4.0, 4.0));
+        let clusters: Vec<(DVec3, f64)> = (0..choose(&mut rng, &[1, 1, 2, 3, 9]))
+            .map(|_| (world + rng.unit_vector() * scale * far(&mut rng), scale * far(&mut rng)))
+            .collect();
+        let clusters = [vec![(world, scale)], clusters].concat();
+        let in_cluster = |rng: &mut Rng| {
+            let (center, extent) = choose(rng, &clusters);
+            let radius = extent * choose(rng, &[0.0, 0.001, 0.02, 0.1]);
+            (center + rng.unit_vector() * extent * rng.uniform(0.0, 1.0), radius)
+        };
+        let count = choose(&mut rng, &[20, 70, 300]);
+        let mut slice: Vec<Sphere<V>> = (0..count)
+            .map(|_| {
+                let (center, radius) = in_cluster(&mut rng);
+                sphere(center, radius)
+            })
+            .collect();
+        for _ in 0..choose(&mut rng, &[0, 1, 5, 30]) {
+            let stray = world + rng.unit_vector() * scale * far(&mut rng);
+            slice.push(sphere(stray, scale * rng.uniform(0.0, 1.0)));
+        }
+        let scene = Scene::new(slice);
+        for _ in 0..8 {
+            let target = choose(&mut rng, &scene.slice);
+            let center = target.center.to_f64();
+            let limb = rng.unit_vector() * target.radius.into() * rng.uniform(0.5, 1.0);
+            let from = match rng.below(4) {
+                0 => in_cluster(&mut rng).0,
+                1 => center + rng.unit_vector() * scale * far(&mut rng),
+                2 => center + rng.unit_vector() * scale * far(&mut rng).powi(2),
+                _ => center + rng.unit_vector() * target.radius.into() * 1.5,
+            };
+            let length = choose(&mut rng, &[1.0, 1.0, 1e-6, 1e9]);
+            let ray = ray::<V>(from, (center + limb - from) * length);
+            asked += 1;
+            hits += u32::from(target.occludes(&ray, all::<V>()));
+            assert_found(&mut rng, &scene, &ray, target);
+        }
+    }
+    assert!(hits > asked / 4, "{hits} of {asked}");
+}
+
+fn of_equal_distances_the_lowest_index<V: Tested>() {
+    let ray = ray::<V>(DVec3::ZERO, DVec3::X);
     for length in 1..=70 {
         for first in 0..length {
             let scene = Scene::new(
                 (0..length)
-                    .map(|i| if i < first { Sphere::new(Vec3::X * 9.0, 1.0) } else { sphere })
+                    .map(|i| sphere(DVec3::X * if i < first { 9.0 } else { 3.0 }, 1.0))
                     .collect(),
             );
-            scene.assert_same(&ray, &ALL);
-            let found = scene.bvh.nearest(&ray, ALL);
-            assert_eq!(found.map(|(index, hit)| (index, hit.t)), Some((first, 2.0)));
+            scene.assert_same(&ray, &all::<V>());
+            let found = scene.bvh.nearest(&ray, all::<V>());
+            assert_eq!(found.map(|(index, hit)| (index, hit.t.into())), Some((first, 2.0)));
         }
     }
 }
 
-#[test]
-fn of_equal_distances_the_lowest_index_of_large_and_small() {
+fn of_equal_distances_the_lowest_index_of_large_and_small<V: Tested>() {
     // All touch the plane x = 2 at the same point. The large ones are kept apart.
-    let ray = Ray::new(Vec3::ZERO, Vec3::X);
+    let ray = ray::<V>(DVec3::ZERO, DVec3::X);
     for turn in 0..200 {
         let scene = Scene::new(
             (0..200_u8)
                 .map(|i| {
                     let radius = if (turn + usize::from(i)) % 13 == 0 { 4096.0 } else { 1.0 };
-                    Sphere::new(Vec3::X * (2.0 + radius), radius)
+                    sphere(DVec3::X * (2.0 + radius), radius)
                 })
                 .collect(),
         );
-        scene.assert_same(&ray, &ALL);
-        assert_eq!(scene.bvh.nearest(&ray, ALL).map(|(index, _)| index), Some(0));
+        scene.assert_same(&ray, &all::<V>());
+        assert_eq!(scene.bvh.nearest(&ray, all::<V>()).map(|(index, _)| index), Some(0));
     }
 }
 
@@ -275,26 +439,22 @@ fn of_equal_distances_the_lowest_index_of_large_and_small() {
 mod questions {
     use super::*;
 
-    fn float(rng: &mut Rng, low: f64, high: f64) -> f32 {
-        #[expect(clippy::cast_possible_truncation, reason = "any number will do")]
-        let number = rng.uniform(low, high) as f32;
-        number
-    }
-
-    fn integer(rng: &mut Rng, low: i64, high: i64) -> f32 {
+    fn integer(rng: &mut Rng, low: i64, high: i64) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "small integers")]
-        let number = rng.integer(low, high) as f32;
+        let number = rng.integer(low, high) as f64;
         number
     }
 
-    fn integers(rng: &mut Rng, low: i64, high: i64) -> Vec3 {
+    fn integers(rng: &mut Rng, low: i64, high: i64) -> DVec3 {
         [(); 3].map(|()| integer(rng, low, high)).into()
     }
 
-    fn any_bits(rng: &mut Rng) -> f32 {
-        #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
-        let bits = rng.bits() as u32;
-        f32::from_bits(bits)
+    fn any_bits<V: Tested>(rng: &mut Rng) -> f64 {
+        V::from_bits(rng.bits()).into()
+    }
+
+    fn any_vector<V: Tested>(rng: &mut Rng) -> DVec3 {
+        [(); 3].map(|()| any_bits::<V>(rng)).into()
     }
 
     fn length(rng: &mut Rng, most: u64) -> usize {
@@ -309,14 +469,14 @@ mod questions {
     }
 
     /// Spheres of one kind, `most` at most.
-    pub(super) fn scene(rng: &mut Rng, most: u64) -> Vec<Sphere> {
+    pub(super) fn scene<V: Tested>(rng: &mut Rng, most: u64) -> Vec<Sphere<V>> {
         let length = length(rng, most);
-        let mut slice: Vec<Sphere> = match rng.below(6) {
+        let mut slice: Vec<Sphere<V>> = match rng.below(7) {
             // Repeated and concentric, on a lattice.
             0 | 1 => (0..length)
                 .map(|_| {
                     let radius = choose(rng, &[0.5, 1.0, 1.0, 1.5, 0.0, 2.0]);
-                    Sphere::new(integers(rng, -4, 4), radius)
+                    sphere(integers(rng, -4, 4), radius)
                 })
                 .collect(),
             2 => {
@@ -324,8 +484,8 @@ mod questions {
                 let scale = choose(rng, &[1.0, 1.0, 1e-9, 1e6, 1e15]);
                 (0..length)
                     .map(|_| {
-                        let center = rng.unit_vector().as_vec3() * float(rng, 0.0, 30.0);
-                        Sphere::new(center * scale, radius * float(rng, 0.5, 1.5) * scale)
+                        let center = rng.unit_vector() * rng.uniform(0.0, 30.0);
+                        sphere(center * scale, radius * rng.uniform(0.5, 1.5) * scale)
                     })
                     .collect()
             }
@@ -333,33 +493,42 @@ mod questions {
             3 => (0..length)
                 .map(|_| {
                     let most = if rng.below(9) == 0 { 5.0 } else { 0.5 };
-                    let radius = 10_f32.powf(float(rng, -6.0, most));
-                    Sphere::new(
-                        rng.unit_vector().as_vec3() * (radius + float(rng, 0.0, 30.0)),
-                        radius,
-                    )
+                    let radius = 10_f64.powf(rng.uniform(-6.0, most));
+                    sphere(rng.unit_vector() * (radius + rng.uniform(0.0, 30.0)), radius)
                 })
                 .collect(),
             4 => {
                 let family = choose(rng, FAMILIES);
-                let (_, sphere) = (family.f32)(rng);
+                let (_, sphere) = V::case(&family, rng);
                 (0..length).map(|_| member(rng, &family, sphere)).collect()
             }
             // On one line or in one plane.
-            _ => (0..length)
+            5 => (0..length)
                 .map(|_| {
-                    let flat = choose(rng, &[Vec3::X, vec3(1.0, 0.0, 1.0)]);
-                    Sphere::new(integers(rng, -40, 40) * flat, choose(rng, &[0.25, 0.5, 1.0]))
+                    let flat = choose(rng, &[DVec3::X, dvec3(1.0, 0.0, 1.0)]);
+                    sphere(integers(rng, -40, 40) * flat, choose(rng, &[0.25, 0.5, 1.0]))
                 })
                 .collect(),
+            // Clusters far from each other, and clusters of these.
+            _ => {
+                let far = [(); 3].map(|()| 10_f64.powf(rng.uniform(0.0, 7.0)));
+                (0..length)
+                    .map(|_| {
+                        let inner = integers(rng, -2, 2) * far[0] + integers(rng, -1, 1) * far[1];
+                        let stray = if rng.below(50) == 0 { far[2] } else { 0.0 };
+                        let center = inner + rng.unit_vector() * (1.0 + stray);
+                        sphere(center, choose(rng, &[0.01, 0.1, 0.3]))
+                    })
+                    .collect()
+            }
         };
         if rng.below(4) == 0 && !slice.is_empty() {
             for _ in 0..rng.below(20) {
                 let place = usize::try_from(rng.below(slice.len() as u64)).unwrap_or(0);
                 slice[place] = match rng.below(3) {
-                    0 => Sphere::new(hostile(rng), choose(rng, &HOSTILE)),
-                    1 => Sphere::new(slice[place].center, choose(rng, &HOSTILE)),
-                    _ => Sphere::new([(); 3].map(|()| any_bits(rng)).into(), any_bits(rng)),
+                    0 => Sphere::new(hostile(rng), hostile_number::<V>(rng)),
+                    1 => Sphere::new(slice[place].center, hostile_number::<V>(rng)),
+                    _ => sphere(any_vector::<V>(rng), any_bits::<V>(rng)),
                 };
             }
         }
@@ -367,31 +536,32 @@ mod questions {
     }
 
     /// A ray for that scene.
-    pub(super) fn ray(rng: &mut Rng, slice: &[Sphere]) -> Ray {
+    pub(super) fn ray<V: Tested>(rng: &mut Rng, slice: &[Sphere<V>]) -> Ray<V> {
         let target = if slice.is_empty() { Sphere::default() } else { choose(rng, slice) };
-        let Sphere { center, radius } = target;
-        let unit = rng.unit_vector().as_vec3();
+        let (center, radius): (_, f64) = (target.center.to_f64(), target.radius.into());
+        let unit = rng.unit_vector();
         // A corner of its box, which is where boxes have their faces.
-        let corner = center + radius * Vec3::from([(); 3].map(|()| choose(rng, &[-1.0, 0.0, 1.0])));
+        let corner =
+            center + radius * DVec3::from([(); 3].map(|()| choose(rng, &[-1.0, 0.0, 1.0])));
         let mut origin = match rng.below(8) {
             0 => integers(rng, -6, 6),
             1 => center,
             2 => center + unit * radius,
             3 => corner,
-            4 => center + unit * (radius * float(rng, 0.0, 2.0)),
-            5 => center + unit * radius * 10_f32.powf(float(rng, 0.0, 6.0)),
-            6 => corner + choose(rng, &[Vec3::X, Vec3::Y, Vec3::Z]) * integer(rng, -50, 50),
-            _ => unit * float(rng, 0.0, 100.0),
+            4 => center + unit * (radius * rng.uniform(0.0, 2.0)),
+            5 => center + unit * radius * 10_f64.powf(rng.uniform(0.0, 6.0)),
+            6 => corner + choose(rng, &[DVec3::X, DVec3::Y, DVec3::Z]) * integer(rng, -50, 50),
+            _ => unit * rng.uniform(0.0, 100.0),
         };
         let mut direction = match rng.below(7) {
-            0 => choose(rng, &[Vec3::X, Vec3::Y, Vec3::Z, Vec3::NEG_X, Vec3::NEG_Y, Vec3::NEG_Z]),
+            0 => choose(rng, &[DVec3::X, DVec3::Y, DVec3::Z]) * choose(rng, &[1.0, -1.0]),
             1 => integers(rng, -2, 2),
             2 => center - origin,
             3 => center + radius * unit - origin,
             4 => corner - origin,
             // Nearly parallel to an axis or a plane.
             5 => {
-                let mut direction = choose(rng, &[unit, Vec3::X, Vec3::NEG_Y, Vec3::Z]);
+                let mut direction = choose(rng, &[unit, DVec3::X, DVec3::NEG_Y, DVec3::Z]);
                 for _ in 0..=rng.below(2) {
                     let axis = choose(rng, &[0, 1, 2]);
                     direction[axis] =
@@ -399,42 +569,42 @@ mod questions {
                 }
                 direction
             }
-            _ => rng.unit_vector().as_vec3(),
+            _ => rng.unit_vector(),
         };
         match rng.below(24) {
-            0 => direction *= 10_f32.powf(float(rng, -12.0, 20.0)),
-            1 => origin = hostile(rng),
-            2 => direction = hostile(rng),
+            0 => direction *= 10_f64.powf(rng.uniform(-12.0, 20.0)),
+            1 => origin = hostile::<V>(rng).to_f64(),
+            2 => direction = hostile::<V>(rng).to_f64(),
             3 => {
                 // At infinity's edge, toward the scene.
-                origin = unit * 10_f32.powf(float(rng, 15.0, 38.0));
+                let largest = V::LIMITS[0].log10();
+                origin = unit * 10_f64.powf(rng.uniform(15.0, largest));
                 direction = center - origin;
             }
             4 => direction *= choose(rng, &[1e-9, 1e-10, 1e18, 1e20]),
-            5 => origin = [(); 3].map(|()| any_bits(rng)).into(),
-            6 => direction = [(); 3].map(|()| any_bits(rng)).into(),
+            5 => origin = any_vector::<V>(rng),
+            6 => direction = any_vector::<V>(rng),
             _ => {}
         }
-        Ray::new(origin, direction)
+        super::ray(origin, direction)
     }
 }
 
-/// `EYERAY_QUESTIONS=10000000 cargo test --release --lib spheres::tests::equals_the_slice_in_a_long_run -- --nocapture`
-#[test]
+/// `EYERAY_QUESTIONS=10000000 cargo test --release --lib spheres::tests -- equals_the_slice_in_a_long_run --nocapture`
 #[expect(clippy::cast_possible_truncation, reason = "it is below the number of ranges")]
-fn equals_the_slice_in_a_long_run() {
+fn equals_the_slice_in_a_long_run<V: Tested>() {
     let wanted = std::env::var("EYERAY_QUESTIONS");
     let wanted: u64 = wanted.map_or(6_000, |number| number.parse().unwrap());
     let most = if wanted < 100_000 { 300 } else { u64::MAX };
     let mut rng = Rng::new(wanted);
     let (mut asked, mut hits) = (0, 0);
     while asked < wanted {
-        let scene = Scene::new(questions::scene(&mut rng, most));
+        let scene = Scene::<V>::new(questions::scene(&mut rng, most));
         for _ in 0..20 {
             let ray = questions::ray(&mut rng, &scene.slice);
-            hits += u64::from(nearest(&scene.slice, &ray, ALL).is_some());
+            hits += u64::from(nearest(&scene.slice, &ray, all::<V>()).is_some());
             let ranges = ranges(&mut rng, &scene.slice, &ray);
-            scene.assert_same(&ray, &ALL);
+            scene.assert_same(&ray, &all::<V>());
             scene.assert_same(&ray, &ranges[rng.below(ranges.len() as u64) as usize]);
             asked += 2;
         }
@@ -443,17 +613,16 @@ fn equals_the_slice_in_a_long_run() {
     assert!(hits > wanted / 10, "{hits}");
 }
 
-#[test]
-fn a_hierarchy_keeps_what_it_is_given() {
+fn a_hierarchy_keeps_what_it_is_given<V: Tested>() {
     let mut rng = Rng::new(3);
-    let bits = |sphere: Sphere| {
-        let Sphere { center, radius } = sphere;
-        [center.x, center.y, center.z, radius].map(f32::to_bits)
+    let bits = |sphere: Sphere<V>| {
+        let [x, y, z] = sphere.center.to_f64().to_array();
+        [x, y, z, sphere.radius.into()].map(f64::to_bits)
     };
     for _ in 0..100 {
-        let slice = questions::scene(&mut rng, 5000);
+        let slice = questions::scene::<V>(&mut rng, 5000);
         let scene = Scene::new(slice);
-        for bvh in [&scene.bvh, &scene.slice.iter().copied().collect()] {
+        for bvh in [&scene.bvh, &scene.slice.iter().collect()] {
             assert_eq!(bvh.len(), scene.slice.len());
             assert!(bvh.iter().map(bits).eq(scene.slice.iter().copied().map(bits)));
             assert!(bvh.iter().rev().map(bits).eq(scene.slice.iter().rev().copied().map(bits)));

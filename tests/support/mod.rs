@@ -9,4 +9,5 @@ pub mod dyadic;
 pub mod families;
 pub mod float;
 pub mod oracle;
+pub mod order;
 pub mod reproduce;

@@ -212,6 +212,31 @@ impl Root {
         }
     }
 
+    /// How the root compares with one of another sphere on the same line, exactly.
+    ///
+    /// By square roots of as many digits as it takes. Equal only where the product of the difference and its conjugates is zero.
+    pub fn order(&self, other: &Self) -> Ordering {
+        let difference = &self.h - &other.h;
+        let k = &(&(&difference * &difference) - &self.discriminant) - &other.discriminant;
+        let product = &self.discriminant * &other.discriminant;
+        let may_be_equal = (&k * &k).scaled(-2).cmp(&product).is_eq();
+        let mut bits = BITS;
+        loop {
+            let [x, y] = [self, other].map(|root| root.discriminant.square_root(bits));
+            let error = (&x + &y).scaled(1 - bits);
+            let x = if self.sign.is_lt() { -&x } else { x };
+            let y = if other.sign.is_lt() { y } else { -&y };
+            let sum = &(&difference + &x) + &y;
+            if sum.clone().abs().cmp(&error).is_gt() || error.is_zero() {
+                return sum.sign();
+            }
+            if may_be_equal && bits > 4096 {
+                return Ordering::Equal;
+            }
+            bits *= 2;
+        }
+    }
+
     /// The value of the format nearest to the root, of two equally near ones the even one. A root that is no smaller
     /// than the largest finite value and half an ulp is infinite; a zero has the sign of the root.
     pub fn nearest<F: Float>(&self) -> F {

@@ -68,6 +68,16 @@ fn sums_and_differences_are_exact() {
         let (a, b) = if a.abs() < b.abs() { (b, a) } else { (a, b) };
         assert_eq!(fast_two_sum(a, b), two_sum(a, b), "{a:e} + {b:e}");
     }
+    // And where the first is the smaller one, but a multiple of the last place of the second.
+    for _ in 0..20_000 {
+        let b = random.float(0..=3);
+        let place = 2_f64.powi(crate::arithmetic::scaling::exponent(b) - 52);
+        let a = random.float(-53..=2) / place;
+        let a = a.round() * place * [1.0, -1.0, -2.0][random.below(3)];
+        assert_eq!(fast_two_sum(a, b), two_sum(a, b), "{a:e} + {b:e}");
+    }
+    // Not where it is none.
+    assert_ne!(fast_two_sum(f64::EPSILON / 4.0, 1.5), two_sum(f64::EPSILON / 4.0, 1.5));
     let tiny = f64::from_bits(1);
     assert_eq!(two_sum(1.0, tiny), Pair { hi: 1.0, lo: tiny });
     assert_eq!(two_difference(tiny, 1.0), Pair { hi: -1.0, lo: tiny });

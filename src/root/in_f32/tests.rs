@@ -211,10 +211,14 @@ fn roots_and_points_from_afar_keep_their_bounds() {
                     worst[0] = worst[0].max(part_of_bound(&Dyadic::exactly(t), exact, &bound));
                 }
                 let Nearest::Root { t, .. } = from_afar(&setting, &chord) else { continue };
-                let found = setting.found_from_afar(&chord, t as f32);
-                let tolerance = Format::F32.point_tolerance();
-                let parts = parts_of_tolerance(numbers, &roots[0], &found, tolerance);
-                worst[1] = worst[1].max(parts[0]).max(parts[1]);
+                let far = plain::far_root(&chord, half_chord);
+                for ((side, t), root) in [(Side::Near, t), (Side::Far, far)].into_iter().zip(&roots)
+                {
+                    let found = setting.found_from_afar(&chord, side, t as f32);
+                    let tolerance = Format::F32.point_tolerance();
+                    let parts = parts_of_tolerance(numbers, root, &found, tolerance);
+                    worst[1] = worst[1].max(parts[0]).max(parts[1]);
+                }
                 certain += 1;
             }
             Verdict::Doubt => {}

@@ -87,26 +87,53 @@ fn answers_are_the_exact_ones_rounded() {
     assert!(hits > 1000, "{hits} hits");
 }
 
+/// The smallest and the largest numbers, and some between: with these, every number is as wide as it gets.
+fn line_of_ends(random: &mut Random, format: Format) -> Line {
+    let ends = match format {
+        Format::F32 => [f32::from_bits(1).into(), f32::MAX.into(), f32::MIN_POSITIVE.into()],
+        Format::F64 => [f64::from_bits(1), f64::MAX, f64::MIN_POSITIVE],
+    };
+    let numbers = [0; 10].map(|_| {
+        let size = [0.0, 1.0, ends[0], ends[0], ends[1], ends[1], ends[2]][random.below(7)];
+        if random.below(2) == 0 { size } else { -size }
+    });
+    let mut line = line(numbers);
+    line.radius = line.radius.abs();
+    line
+}
+
 #[test]
 fn answers_at_the_ends_of_the_range_are_the_exact_ones_rounded() {
-    // The smallest and the largest numbers, and some between: with these, every number is as wide as it gets.
     let mut random = Random::new(3);
     let mut hits = 0;
     for round in 0..1500 {
-        let (format, ends) = if round % 2 == 0 {
-            (Format::F32, [f32::from_bits(1).into(), f32::MAX.into(), f32::MIN_POSITIVE.into()])
-        } else {
-            (Format::F64, [f64::from_bits(1), f64::MAX, f64::MIN_POSITIVE])
-        };
-        let numbers = [0; 10].map(|_| {
-            let size = [0.0, 1.0, ends[0], ends[0], ends[1], ends[1], ends[2]][random.below(7)];
-            if random.below(2) == 0 { size } else { -size }
-        });
-        let mut line = line(numbers);
-        line.radius = line.radius.abs();
-        hits += u32::from(check(&line, format));
+        let format = if round % 2 == 0 { Format::F32 } else { Format::F64 };
+        hits += u32::from(check(&line_of_ends(&mut random, format), format));
     }
     assert!(hits > 200, "{hits} hits");
+}
+
+#[test]
+fn memory_that_is_too_small_gives_no_answer() {
+    // A sixth less is not enough for all, and where it is, the answer is the same.
+    let mut random = Random::new(4);
+    let (mut counts, mut panics) = ([0; 2], [0; 2]);
+    for round in 0..3000 {
+        let (format, index) = if round % 2 == 0 { (Format::F32, 0) } else { (Format::F64, 1) };
+        let line = line_of_ends(&mut random, format);
+        let in_less = || match format {
+            Format::F32 => answer::<{ F32_DIGITS / 6 * 5 }>(&line, format, &ALL),
+            Format::F64 => answer::<{ F64_DIGITS / 6 * 5 }>(&line, format, &ALL),
+        };
+        match std::panic::catch_unwind(in_less) {
+            Ok(found) => {
+                assert_eq!(bits(found), bits(ask(&line, format, &ALL)), "{line:?}");
+                counts[index] += 1;
+            }
+            Err(_) => panics[index] += 1,
+        }
+    }
+    assert!(counts.iter().chain(&panics).all(|count| *count > 5), "{counts:?} {panics:?}");
 }
 
 #[test]

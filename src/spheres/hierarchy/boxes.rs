@@ -3,17 +3,23 @@
 //! A box is passed through between the last near plane and the first far plane of its three slabs (Kay and Kajiya). It may be
 //! kept though the ray misses it; it is never dropped if a sphere in it is hit.
 //!
-//! Let p and d be a component of the ray's origin and direction, c the coordinate of a plane, L the largest coordinate of all
-//! boxes or of the origin, and D the largest component of the direction, by magnitude. A hit at t is a point of the box: it is
-//! beyond each near plane and before each far one, so for d > 0
+//! Coordinates are relative to the center of a region ([`region`](super::region)). Let p and d be a component of the ray's origin
+//! and direction, c the coordinate of a plane, L the largest coordinate of all boxes or of the origin, and D the largest
+//! component of the direction, by magnitude. A hit at t is a point of the box: it is beyond each near plane and before each far
+//! one, so for d > 0
 //!
 //! ```text
 //! (c_near - p) / d ≤ t ≤ (c_far - p) / d
 //! ```
 //!
-//! **Components near zero.** A component below 2 u D, with u = 2⁻²⁴, is replaced by that, of the same sign: no reciprocal is
-//! infinite, and no product with it NaN. The coordinate of the point at t changes by at most 2 u t D, and t D, how far the hit is
-//! from the origin along that axis, is at most 2 L: so t moves by 4 u L / d.
+//! **Rounded numbers.** The planes are rounded outwards. The origin is rounded to `f32`, by at most u L with u = 2⁻²⁴, and may
+//! have been moved, by u L / 8 ([`local`](crate::spheres::local): u / 16 of its distance, which is at most √3 L). A component of
+//! the direction is rounded by u d, and so the coordinate of the point at t by u t d. How far the hit is from the origin along
+//! that axis, t d, is at most 2 L. Together that moves the point by 3.13 u L, and t by 3.13 u L / d.
+//!
+//! **Components near zero.** A component below 2 u D is replaced by that, of the same sign: no reciprocal is infinite, and no
+//! product with it NaN. The coordinate of the point at t changes by at most 2 u t D, and t D is at most 2 L: so t moves by 4 u L
+//! / d.
 //!
 //! **The error.** With r for 1 / d, and every operation rounded (a fused multiply-add rounds less),
 //!
@@ -24,20 +30,19 @@
 //! c r + that    a sum                                            2 u L r
 //! ```
 //!
-//! Together 7 u L r, and 11 u L r with what was replaced. The reach, [`MARGIN`] L r, 12 u L r, is subtracted from where the ray
-//! meets the near planes and added for the far ones, once a ray. It must not be relative to c - p: in a box's face that is zero.
-//! What is left of it, u L r, is far more than all terms of the second order, and than what underflows: L counts as at least
-//! [`LEAST_COORDINATE`], 2⁻⁶⁰, so that u L r ≥ 2⁻¹⁴⁴ for directions up to 2⁶⁰, and a product that underflows is off by 2⁻¹⁵⁰.
-//! Nothing overflows: r ≤ 2⁵⁴ for directions from 2⁻³⁰ on, and L ≤ 2⁶¹.
+//! Together 7 u L r, 11 u L r with what was replaced, and 14.13 u L r with what was rounded before. The reach, [`MARGIN`] L r, 16
+//! u L r, is subtracted from where the ray meets the near planes and added for the far ones, once a ray. It must not be relative
+//! to c - p: in a box's face that is zero. What is left of it, more than u L r, is far more than all terms of the second order,
+//! and than what underflows: L counts as at least [`LEAST_COORDINATE`], 2⁻⁶⁰, so that u L r ≥ 2⁻¹⁴⁴ for directions up to 2⁶⁰, and
+//! a product that underflows is off by 2⁻¹⁵⁰. Nothing overflows: r ≤ 2⁵⁴ for directions from 2⁻³⁰ on, and L ≤ 2⁶¹.
 
 use glam::{Vec3, Vec4};
 
 use super::LEAF;
-use crate::Ray;
 use crate::spheres::lanes::{Instructions, LANES};
 
-/// By how much a box may be missed, in L r: 12 u. See the derivation above.
-pub(super) const MARGIN: f32 = 6.0 * f32::EPSILON;
+/// By how much a box may be missed, in L r: 16 u. See the derivation above.
+pub(super) const MARGIN: f32 = 8.0 * f32::EPSILON;
 
 /// The least component of a direction, in the largest one: 2 u.
 pub(super) const LEAST_COMPONENT: f32 = f32::EPSILON;
@@ -56,7 +61,12 @@ pub(super) struct Boxes {
     node: u32,
     /// How many of the boxes, the first, are leaves.
     leaves: u32,
+    /// The region that this is the door of, or [`NO_DOOR`].
+    region: u32,
 }
+
+/// The region that no node is the door of.
+const NO_DOOR: u32 = u32::MAX;
 
 impl Boxes {
     /// No boxes: no ray enters one.
@@ -65,7 +75,19 @@ impl Boxes {
         leaf: 0,
         node: 0,
         leaves: 0,
+        region: NO_DOOR,
     };
+
+    /// The door of a region: a node of the tree around it, without boxes, in the place of those in the region.
+    pub(super) fn door(region: u32) -> Self {
+        Self { region, ..Self::EMPTY }
+    }
+
+    /// The region that this is the door of.
+    #[inline(always)]
+    pub(super) fn region(&self) -> Option<u32> {
+        (self.region != NO_DOOR).then_some(self.region)
+    }
 
     /// The first boxes are these leaves, and the others these nodes.
     pub(super) fn set_children(&mut self, leaf: u32, node: u32, leaves: u32) {
@@ -99,6 +121,7 @@ impl Boxes {
     }
 
     /// The box around all of them.
+    #[cfg(test)]
     pub(super) fn bounds(&self) -> (Vec3, Vec3) {
         let low = self.planes.map(|[low, _]| low.into_iter().fold(f32::INFINITY, f32::min));
         let high = self.planes.map(|[_, high]| high.into_iter().fold(f32::NEG_INFINITY, f32::max));
@@ -142,7 +165,7 @@ impl Boxes {
 ///
 /// In vectors of four: the loop over the boxes loads single numbers or groups of them, as the compiler likes, and has to wait for
 /// a group whose numbers were written one by one.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Slabs {
     /// Of each component of the direction.
     reciprocal: Vec4,
@@ -155,10 +178,10 @@ pub(super) struct Slabs {
 
 impl Slabs {
     #[inline(always)]
-    pub(super) fn new(ray: &Ray, largest_coordinate: f32, margin: f32) -> Self {
+    pub(super) fn new(origin: Vec3, direction: Vec3, largest_coordinate: f32, margin: f32) -> Self {
         // The fourth number is there for the maximum.
-        let origin = ray.origin.extend(largest_coordinate);
-        let direction = ray.direction.extend(0.0);
+        let origin = origin.extend(largest_coordinate);
+        let direction = direction.extend(0.0);
         let magnitude = direction.abs();
         let least = Vec4::splat(magnitude.max_element() * LEAST_COMPONENT);
         let reciprocal = magnitude.max(least).recip();
@@ -182,7 +205,7 @@ mod tests {
 
     use super::*;
     use crate::spheres::lanes::{Lanes, Vectorized};
-    use crate::{Hittable, Sphere};
+    use crate::{Hittable, Ray, Sphere};
 
     struct Enter<'a> {
         boxes: &'a Boxes,
@@ -236,7 +259,7 @@ mod tests {
             let largest = low.abs().max(high.abs()).max_element();
             for end in [f32::INFINITY, f32::from_bits(hit.t.to_bits() + 1)] {
                 hits += 1;
-                let slabs = Slabs::new(&ray, largest, margin);
+                let slabs = Slabs::new(ray.origin, ray.direction, largest, margin);
                 let (entered, entries) = lanes.run(Enter { boxes: &boxes, slabs, end });
                 assert_eq!(entered & !(1 << LANE), 0, "an empty box was entered");
                 dropped += u32::from(entered == 0 || entries[LANE] > hit.t);

@@ -2,22 +2,25 @@
 
 use alloc::vec::Vec;
 
-use glam::{Vec3, Vec4};
+use glam::Vec4;
 
-use super::boxes::LEAST_COORDINATE;
+use super::bounds::Bounds;
 use super::leaf::{Leaf, NONE};
 use super::split::split_up;
 use super::wide::Wide;
 use super::{Shape, SphereBvh, Tree};
-use crate::Sphere;
+use crate::rejection::can_be_hit;
 use crate::spheres::Spheres;
-use crate::spheres::filter::{can_be_met, is_in_reach};
+use crate::spheres::filter::is_in_reach;
 use crate::spheres::lanes::{LANES, Lanes};
+use crate::spheres::local::{narrow, to_f32};
+use crate::{Scalar, Sphere, Vector};
 
 /// Up to so many spheres, as a multiple of the numbers in a vector, a scan takes no longer than the hierarchy.
 const FEW: usize = 20;
 
-/// How many spheres a hierarchy has at most: the places of all, with the lanes of leaves that are not full, are numbers of 32 bits.
+/// How many spheres a hierarchy has at most: the places of all, with the lanes of leaves that are not full, are numbers of 32
+/// bits.
 pub(super) const MOST: usize = 1 << 31;
 
 /// How many large spheres are kept apart at most: one block for the scan to filter.
@@ -29,69 +32,61 @@ const LARGE: f32 = 4.0;
 /// A sphere, and its place in the order in which the spheres were given.
 #[derive(Clone, Copy)]
 pub(super) struct Member {
-    /// The center and the radius, in a vector.
+    /// The center, relative to that of the region, and the radius, in a vector.
     pub(super) sphere: Vec4,
     pub(super) index: u32,
 }
 
 impl Member {
-    pub(super) fn new(index: u32, Sphere { center, radius }: Sphere) -> Self {
-        Self { sphere: center.extend(radius), index }
-    }
-
-    fn sphere(&self) -> Sphere {
-        Sphere::new(self.sphere.truncate(), self.sphere.w)
+    #[inline(always)]
+    pub(super) fn new<V: Vector>(index: u32, sphere: &Sphere<V>, center: V) -> Self {
+        let Sphere { center: own, radius } = *sphere;
+        Self { sphere: narrow(own - center).extend(to_f32(radius)), index }
     }
 }
 
-impl From<Spheres> for SphereBvh {
-    fn from(spheres: Spheres) -> Self {
+impl<V: Vector> From<Spheres<V>> for SphereBvh<V> {
+    fn from(spheres: Spheres<V>) -> Self {
         let few = FEW * Lanes::best().at_a_time();
         let is_tree = spheres.len() > few && spheres.len() <= MOST;
         Self(if is_tree { Shape::Tree(Tree::new(&spheres)) } else { Shape::Scan(spheres) })
     }
 }
 
-impl Tree {
+impl<V: Vector> Tree<V> {
     /// Sorts [`MOST`] spheres at most.
-    pub(super) fn new(spheres: &Spheres) -> Self {
+    pub(super) fn new(spheres: &Spheres<V>) -> Self {
+        let spheres = spheres.as_slice();
         let mut members = Vec::with_capacity(spheres.len());
         let mut apart = Vec::new();
         let mut unreachable = Vec::new();
         for (index, sphere) in (0..).zip(spheres) {
-            let kind = if !can_be_met(&sphere) {
-                &mut unreachable
-            } else if !is_in_reach(&sphere) {
-                &mut apart
+            if !can_be_hit(sphere) {
+                unreachable.push(index);
+            } else if !is_in_reach(sphere) {
+                apart.push(index);
             } else {
-                &mut members
-            };
-            kind.push(Member::new(index, sphere));
+                members.push(Member::new(index, sphere, V::ZERO));
+            }
         }
         set_apart_the_large(&mut members, &mut apart);
-        apart.sort_unstable_by_key(|member| member.index);
-        let splits = split_up(&mut members);
-        let mut wide = Wide::new(&members, &splits, alloc::vec![0; spheres.len()]);
-        let root = wide.make();
-        let Wide { leaves, nodes, mut places, .. } = wide;
-        let mut largest_coordinate = LEAST_COORDINATE;
-        if let Some(root) = nodes.first() {
-            let (low, high) = root.bounds();
-            largest_coordinate = largest_coordinate.max(low.abs().max(high.abs()).max_element());
-        }
+        apart.sort_unstable();
+        let binary = split_up(&mut members, spheres);
+        let mut wide = Wide::new(spheres, &members, &binary, alloc::vec![0; spheres.len()]);
+        wide.make();
+        let Wide { leaves, nodes, regions, mut places, .. } = wide;
 
         let behind = number(leaves.len() * LANES);
-        for (place, member) in (behind..).zip(apart.iter().chain(&unreachable)) {
-            places[member.index as usize] = place;
+        for (place, &index) in (behind..).zip(apart.iter().chain(&unreachable)) {
+            places[index as usize] = place;
         }
         Self {
             leaves,
             nodes,
-            root,
-            largest_coordinate,
-            apart: apart.iter().map(Member::sphere).collect(),
-            apart_indices: apart.iter().map(|member| member.index).collect(),
-            unreachable: unreachable.iter().map(Member::sphere).collect(),
+            regions,
+            apart: apart.iter().map(|&index| spheres[index as usize]).collect(),
+            apart_indices: apart,
+            unreachable: unreachable.iter().map(|&index| spheres[index as usize]).collect(),
             places,
         }
     }
@@ -103,27 +98,27 @@ pub(super) fn number(number: usize) -> u32 {
     number as u32
 }
 
-/// The leaf of up to 16 members. In each lane that is left is a point, which hardly a ray comes near, with an index that tells it.
-pub(super) fn leaf(members: &[Member]) -> Option<Leaf> {
+/// The leaf of up to 16 of the spheres, and the box around it. In each lane that is left is a point, which hardly a ray comes
+/// near, with an index that tells it.
+pub(super) fn leaf<V: Vector>(
+    members: &[Member],
+    spheres: &[Sphere<V>],
+) -> Option<(Leaf<V::Scalar>, Bounds)> {
+    let sphere_of = |member: &Member| &spheres[member.index as usize];
     let first = members.first()?;
-    let mut leaf = Leaf::filled(NONE, Sphere::new(first.sphere.truncate(), 0.0));
+    let mut leaf = Leaf::filled(NONE, &Sphere::new(sphere_of(first).center, V::Scalar::ZERO));
+    let mut bounds = Bounds::NONE;
     for (lane, member) in members.iter().enumerate() {
-        leaf.set(lane, member.index, member.sphere());
+        let sphere = sphere_of(member);
+        leaf.set(lane, member.index, sphere);
+        bounds = bounds.and(Bounds::of(sphere));
     }
-    Some(leaf)
-}
-
-/// The box around the members.
-pub(super) fn bounds_of(members: &[Member]) -> (Vec3, Vec3) {
-    members.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), member| {
-        let bounds = member.sphere().bounds();
-        (low.min(bounds.0), high.max(bounds.1))
-    })
+    Some((leaf, bounds))
 }
 
 /// Moves the few members that are as large as all others together, such as the ground that they stand on: every box that held
 /// one would be in the way of nearly every ray.
-fn set_apart_the_large(members: &mut Vec<Member>, apart: &mut Vec<Member>) {
+fn set_apart_the_large(members: &mut Vec<Member>, apart: &mut Vec<u32>) {
     if members.len() <= APART {
         return;
     }
@@ -136,7 +131,7 @@ fn set_apart_the_large(members: &mut Vec<Member>, apart: &mut Vec<Member>) {
     let large = (high - low).truncate().max_element() / LARGE;
     for place in (others..members.len()).rev() {
         if members[place].sphere.w > large {
-            apart.push(members.swap_remove(place));
+            apart.push(members.swap_remove(place).index);
         }
     }
 }

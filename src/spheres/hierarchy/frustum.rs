@@ -31,7 +31,10 @@
 use glam::{Vec3, Vec4};
 
 use super::boxes::{Boxes, LEAST_COMPONENT};
+use super::region::Region;
+use crate::Vector;
 use crate::spheres::lanes::{Instructions, LANES, Vectorized};
+use crate::spheres::local::narrow;
 use crate::spheres::packet::{Mask, Packet, RAYS, Sixteen};
 
 /// By how much a box may be missed by a single ray, in L: 24 u. See the derivation above.
@@ -73,10 +76,11 @@ pub(super) struct Frustum {
 }
 
 impl Frustum {
-    pub(super) fn new(packet: &Packet, largest_coordinate: f32, margin: f32) -> Self {
-        let [low, high] = packet.origins;
+    pub(super) fn new<V: Vector>(packet: &Packet, region: &Region<V>, margin: f32) -> Self {
+        let center = narrow(region.center);
+        let [low, high] = packet.origins.map(|origin| origin - center);
         let [least, greatest] = packet.directions;
-        let reach = margin * largest(packet.origins).max(largest_coordinate);
+        let reach = margin * largest([low, high]).max(region.extent);
         let smallest = largest(packet.directions) * LEAST_COMPONENT;
         let none = [Bound::none(f32::NEG_INFINITY), Bound::none(f32::INFINITY)];
         let mut frustum = Self { below: none, above: none, first: packet.first };
@@ -166,13 +170,20 @@ impl Slabs {
 pub(super) struct Prepare<'a> {
     pub(super) slabs: &'a mut Slabs,
     pub(super) packet: &'a Packet,
-    pub(super) largest_coordinate: f32,
+    /// That of the region.
+    pub(super) center: Vec3,
+    pub(super) extent: f32,
     pub(super) margin: f32,
 }
 
 impl<'a> Prepare<'a> {
-    pub(super) fn new(slabs: &'a mut Slabs, packet: &'a Packet, largest_coordinate: f32) -> Self {
-        Self { slabs, packet, largest_coordinate, margin: RAY_MARGIN }
+    pub(super) fn new<V: Vector>(
+        slabs: &'a mut Slabs,
+        packet: &'a Packet,
+        region: &Region<V>,
+    ) -> Self {
+        let (center, extent) = (narrow(region.center), region.extent);
+        Self { slabs, packet, center, extent, margin: RAY_MARGIN }
     }
 }
 
@@ -181,8 +192,8 @@ impl Vectorized for Prepare<'_> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, _: I) {
-        let Self { slabs, packet, largest_coordinate, margin } = self;
-        slabs.reach = margin * largest(packet.origins).max(largest_coordinate);
+        let Self { slabs, packet, center, extent, margin } = self;
+        slabs.reach = margin * largest(packet.origins.map(|origin| origin - center)).max(extent);
         for (slabs, sixteen) in slabs.sixteens.iter_mut().zip(packet.sixteens()) {
             let Sixteen { origin, direction: [x, y, z], .. } = sixteen;
             let larger = |a: f32, b: f32| if a > b { a } else { b };
@@ -197,7 +208,7 @@ impl Vectorized for Prepare<'_> {
                     let magnitude = larger(direction[lane].abs(), least[lane]);
                     let reciprocal = (1.0 / magnitude).copysign(direction[lane]);
                     reciprocals[lane] = reciprocal;
-                    offsets[lane] = -(origin[lane] * reciprocal);
+                    offsets[lane] = -((origin[lane] - center[axis]) * reciprocal);
                 }
                 (slabs.reciprocal[axis], slabs.offset[axis]) = (reciprocals, offsets);
             }

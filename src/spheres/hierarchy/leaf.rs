@@ -28,25 +28,31 @@
 //! r + 9 u |o| + u |o| + u m |d| + u r = r (1 + 11 u) + 11 u m |d|
 //! ```
 //!
+//! **Rounded numbers.** Spheres are in the coordinates of the world and in the scene's own precision, and so is p. Only o is
+//! `f32`. The direction may be rounded to `f32`, which moves the point at t by u t |d| ≤ u (r + m |d|); r too, by u r; and where
+//! p has been moved along the ray, it is off by what [`Tube::moved`] adds to every radius. That makes r (1 + 13 u) + 12 u m |d|.
+//!
 //! |w|² - R² is the sum of x² + y², off by 2 u (x² + y²), and of z² - R², off by u z², u R² and the rounding of the difference,
-//! u R²; to round the sum of the two changes no sign. That is at most 4 u R², or 2 u of R. R takes two more roundings: 4 u in all.
-//! So r is made larger by [`RADIUS_MARGIN`], 16 u, and then by [`DISTANCE_MARGIN`] m |d|, 12 u. What is left of either, u r and
-//! u m |d|, is far more than all terms of the second order. The length |d| is taken for |x| + |y| + |z|, which is no smaller.
+//! u R²; to round the sum of the two changes no sign. That is at most 4 u R², or 2 u of R. R takes two more roundings: 4 u in
+//! all. So r is made larger by [`RADIUS_MARGIN`], 20 u, and then by [`DISTANCE_MARGIN`] m |d|, 14 u. What is left of either, more
+//! than u r and u m |d|, is far more than all terms of the second order. The length |d| is taken for |x| + |y| + |z|, which is no
+//! smaller.
 //!
 //! **Overflow and underflow.** Lengths up to 2⁶⁰ and directions of 2⁻³⁰ to 2⁶⁰ keep every intermediate result finite: |o| < 2⁶²,
 //! m < 2⁹². A product that underflows is off by 2⁻¹⁵⁰: in m d that makes 2⁻⁸⁸, and [`LEAST`], 2⁻⁶⁰, which each R has added to
 //! it, is more; R² is then at least 2⁻¹²⁰ above r², and |w|² off by 2⁻¹⁴⁸ at most.
 
-use glam::{Vec3, Vec4};
+use glam::{DVec3, Vec4};
 
 use crate::spheres::lanes::{Instructions, LANES};
-use crate::{Ray, Sphere};
+use crate::spheres::local::{narrow, to_f32};
+use crate::{Ray, Scalar, Sphere, Vector};
 
-/// By which part of itself a radius is made larger: 16 u. See the derivation above.
-const RADIUS_MARGIN: f32 = 8.0 * f32::EPSILON;
+/// By which part of itself a radius is made larger: 20 u. See the derivation above.
+const RADIUS_MARGIN: f32 = 10.0 * f32::EPSILON;
 
-/// By which part of the way to the closest approach it is made larger besides: 12 u.
-const DISTANCE_MARGIN: f32 = 6.0 * f32::EPSILON;
+/// By which part of the way to the closest approach it is made larger besides: 14 u.
+const DISTANCE_MARGIN: f32 = 7.0 * f32::EPSILON;
 
 /// What is added to every radius: more than underflow can take from it.
 const LEAST: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
@@ -57,50 +63,54 @@ pub(super) const NONE: u32 = u32::MAX;
 /// Up to 16 spheres.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
-pub(super) struct Leaf {
-    x: [f32; LANES],
-    y: [f32; LANES],
-    z: [f32; LANES],
-    radius: [f32; LANES],
+pub(super) struct Leaf<S> {
+    /// Of the centers, by axis.
+    center: [[S; LANES]; 3],
+    radius: [S; LANES],
     /// Of each, its place in the order in which the spheres were given, or [`NONE`].
     index: [u32; LANES],
 }
 
-impl Leaf {
+impl<S: Scalar> Leaf<S> {
     pub(super) const LANES: usize = LANES;
 
     /// One sphere, over and over.
-    pub(super) fn filled(index: u32, sphere: Sphere) -> Self {
-        let Sphere { center, radius } = sphere;
+    pub(super) fn filled<V: Vector<Scalar = S>>(index: u32, sphere: &Sphere<V>) -> Self {
+        let center = sphere.center.to_f64().to_array().map(S::from_f64);
         Self {
-            x: [center.x; LANES],
-            y: [center.y; LANES],
-            z: [center.z; LANES],
-            radius: [radius; LANES],
+            center: center.map(|coordinate| [coordinate; LANES]),
+            radius: [sphere.radius; LANES],
             index: [index; LANES],
         }
     }
 
     /// Puts a sphere into a lane.
-    pub(super) fn set(&mut self, lane: usize, index: u32, sphere: Sphere) {
-        let Sphere { center, radius } = sphere;
-        self.x[lane] = center.x;
-        self.y[lane] = center.y;
-        self.z[lane] = center.z;
-        self.radius[lane] = radius;
+    pub(super) fn set<V: Vector<Scalar = S>>(
+        &mut self,
+        lane: usize,
+        index: u32,
+        sphere: &Sphere<V>,
+    ) {
+        let center = sphere.center.to_f64().to_array().map(S::from_f64);
+        for (all, coordinate) in self.center.iter_mut().zip(center) {
+            all[lane] = coordinate;
+        }
+        self.radius[lane] = sphere.radius;
         self.index[lane] = index;
     }
 
     /// The sphere of a lane.
     #[inline(always)]
-    pub(super) fn sphere(&self, lane: usize) -> Sphere {
-        Sphere::new(Vec3::new(self.x[lane], self.y[lane], self.z[lane]), self.radius[lane])
+    pub(super) fn sphere<V: Vector<Scalar = S>>(&self, lane: usize) -> Sphere<V> {
+        let [x, y, z] = [0, 1, 2].map(|axis: usize| self.center[axis][lane].into());
+        Sphere::new(V::from_f64(DVec3::new(x, y, z)), self.radius[lane])
     }
 
     /// The coordinates of the centers, and the radii.
     #[inline(always)]
-    pub(super) fn numbers(&self) -> [&[f32; LANES]; 4] {
-        [&self.x, &self.y, &self.z, &self.radius]
+    pub(super) fn numbers(&self) -> [&[S; LANES]; 4] {
+        let [x, y, z] = &self.center;
+        [x, y, z, &self.radius]
     }
 
     /// Its place in the order in which the spheres were given.
@@ -116,18 +126,49 @@ impl Leaf {
     pub(super) fn near<I: Instructions>(
         &self,
         instructions: I,
-        tube: &Tube,
+        tube: &Tube<S>,
         end: f32,
         closest: &mut [f32; LANES],
         clearances: &mut [f32; LANES],
     ) -> u32 {
-        let Tube { origin, direction, over_a, radius_factor, widening } = *tube;
+        let origin = tube.origin;
+        let offset = |center: S, axis: usize| to_f32(center - origin[axis]);
+        self.near_origin(instructions, tube, offset, end, closest, clearances)
+    }
+
+    /// [`near`](Self::near) of a ray that begins anew.
+    #[inline(always)]
+    pub(super) fn near_moved<I: Instructions>(
+        &self,
+        instructions: I,
+        tube: &Tube<S>,
+        end: f32,
+        closest: &mut [f32; LANES],
+        clearances: &mut [f32; LANES],
+    ) -> u32 {
+        let origin = tube.moved_origin;
+        let offset = |center: S, axis: usize| to_f32(center.into() - origin[axis]);
+        self.near_origin(instructions, tube, offset, end, closest, clearances)
+    }
+
+    /// The same with what a coordinate of a center is, relative to the ray's origin.
+    #[inline(always)]
+    fn near_origin<I: Instructions>(
+        &self,
+        instructions: I,
+        tube: &Tube<S>,
+        offset: impl Fn(S, usize) -> f32,
+        end: f32,
+        closest: &mut [f32; LANES],
+        clearances: &mut [f32; LANES],
+    ) -> u32 {
+        let Tube { direction, over_a, radius_factor, widening, least, .. } = *tube;
         // Arrays of its own, or the compiler would have to store each number before it loads the next.
         let (mut all_closest, mut all_clearances) = ([0.0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
-            let x = self.x[lane] - origin.x;
-            let y = self.y[lane] - origin.y;
-            let z = self.z[lane] - origin.z;
+            let x = offset(self.center[0][lane], 0);
+            let y = offset(self.center[1][lane], 1);
+            let z = offset(self.center[2][lane], 2);
             let m = instructions.multiply_add(over_a.y, y, over_a.x * x);
             let m = instructions.multiply_add(over_a.z, z, m);
             // Comparisons that are one instruction each: `f32::clamp` looks for NaN.
@@ -136,7 +177,7 @@ impl Leaf {
             let x = instructions.multiply_add(-m, direction.x, x);
             let y = instructions.multiply_add(-m, direction.y, y);
             let z = instructions.multiply_add(-m, direction.z, z);
-            let radius = instructions.multiply_add(self.radius[lane], radius_factor, LEAST);
+            let radius = instructions.multiply_add(to_f32(self.radius[lane]), radius_factor, least);
             let radius = instructions.multiply_add(widening, m, radius);
             // Two halves, neither of which waits for the other.
             let one = instructions.multiply_add(y, y, x * x);
@@ -153,9 +194,11 @@ impl Leaf {
 /// What the leaves are tested with: a ray, and how far around it a sphere may be.
 ///
 /// In vectors of four, for the reason that `Slabs` has.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Tube {
-    origin: Vec4,
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Tube<S> {
+    origin: [S; 4],
+    /// Where the ray begins anew, if it does.
+    moved_origin: [f64; 4],
     direction: Vec4,
     /// e = d / d·d.
     over_a: Vec4,
@@ -163,25 +206,53 @@ pub(super) struct Tube {
     radius_factor: f32,
     /// What is added to them, in m.
     widening: f32,
+    /// What is added to them besides.
+    least: f32,
 }
 
-impl Tube {
+impl<S: Scalar> Tube<S> {
     #[inline(always)]
-    pub(super) fn new(ray: &Ray) -> Self {
+    pub(super) fn new<V: Vector<Scalar = S>>(ray: &Ray<V>) -> Self {
         Self::with_margins(ray, RADIUS_MARGIN, DISTANCE_MARGIN)
     }
 
+    /// Of a ray that begins anew at `t`.
+    ///
+    /// With v = 2⁻⁵³, the product is off by v t |d|, and the sum by v of itself. Twice that is added to every radius, with the
+    /// sums of the coordinates for the lengths.
+    pub(super) fn moved<V: Vector<Scalar = S>>(ray: &Ray<V>, t: f64) -> Self {
+        let way = ray.direction.to_f64() * t;
+        let origin = ray.origin.to_f64() + way;
+        let sizes = way.abs().element_sum() + origin.abs().element_sum();
+        let mut tube = Self::new(ray);
+        tube.moved_origin = origin.extend(0.0).to_array();
+        tube.least += to_f32(f64::EPSILON * sizes);
+        tube
+    }
+
     #[inline(always)]
-    fn with_margins(ray: &Ray, radius_margin: f32, distance_margin: f32) -> Self {
-        let origin = ray.origin.extend(0.0);
-        let direction = ray.direction.extend(0.0);
+    fn with_margins<V: Vector<Scalar = S>>(
+        ray: &Ray<V>,
+        radius_margin: f32,
+        distance_margin: f32,
+    ) -> Self {
+        let direction = narrow(ray.direction);
+        let over_a = direction.length_squared().recip();
+        let direction = direction.extend(0.0);
         Self {
-            origin,
+            origin: ray.origin.to_f64().extend(0.0).to_array().map(S::from_f64),
+            moved_origin: [0.0; 4],
             direction,
-            over_a: direction * ray.direction.length_squared().recip(),
+            over_a: direction * over_a,
             radius_factor: 1.0 + radius_margin,
             widening: distance_margin * direction.abs().element_sum(),
+            least: LEAST,
         }
+    }
+
+    /// |d|.
+    pub(super) fn length(&self) -> f32 {
+        self.direction.length()
     }
 }
 
@@ -195,8 +266,8 @@ mod tests {
     use crate::spheres::lanes::{Lanes, Vectorized};
 
     struct Near<'a> {
-        leaf: &'a Leaf,
-        tube: Tube,
+        leaf: &'a Leaf<f32>,
+        tube: Tube<f32>,
         end: f32,
     }
 
@@ -235,8 +306,8 @@ mod tests {
             let ray = Ray::new(origin.as_vec3(), direction.as_vec3());
             let Some(hit) = sphere.intersect(&ray, 0.0..f32::INFINITY) else { continue };
             let elsewhere = Sphere::new((center + outward * (3.0 * radius + far)).as_vec3(), 0.0);
-            let mut leaf = Leaf::filled(0, elsewhere);
-            leaf.set(LANE, 1, sphere);
+            let mut leaf = Leaf::filled(0, &elsewhere);
+            leaf.set(LANE, 1, &sphere);
             for end in [f32::INFINITY, f32::from_bits(hit.t.to_bits() + 1)] {
                 hits += 1;
                 let tube = Tube::with_margins(&ray, margins[0], margins[1]);

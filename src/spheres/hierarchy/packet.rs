@@ -7,13 +7,15 @@ use arrayvec::ArrayVec;
 use super::boxes::{Boxes, MARGIN};
 use super::frustum::{Enter, Frustum, Prepare, Slabs};
 use super::leaf::{Leaf, NONE};
+use super::region::FAR;
 use super::walk::{Key, MOST_WAITING, child, entry, key};
 use super::{LEAF, Tree};
 use crate::spheres::each::Collection;
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
+use crate::spheres::local::narrow;
 use crate::spheres::packet::cone::Cone;
-use crate::spheres::packet::{Mask, Packet, Question};
-use crate::{Hit, Ray, Sphere};
+use crate::spheres::packet::{Around, Mask, Packet, Question};
+use crate::{Hit, Ray, Scalar, Sphere, Vector};
 
 /// Numbers of 16 boxes, where one instruction can write them.
 #[repr(align(64))]
@@ -37,13 +39,13 @@ impl Vectorized for EnterAny<'_> {
 }
 
 /// Asks which spheres of a leaf any ray may meet.
-struct InLeaf<'a> {
-    leaf: &'a Leaf,
+struct InLeaf<'a, S> {
+    leaf: &'a Leaf<S>,
     cone: &'a Cone,
     end: f32,
 }
 
-impl Vectorized for InLeaf<'_> {
+impl<S: Scalar> Vectorized for InLeaf<'_, S> {
     type Output = u32;
 
     #[inline(always)]
@@ -52,24 +54,33 @@ impl Vectorized for InLeaf<'_> {
     }
 }
 
-impl Collection for Tree {
-    fn ask<Q: Question>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) -> bool {
+impl<V: Vector> Collection<V> for Tree<V> {
+    fn around(&self) -> Around {
+        self.regions.first().map_or_else(
+            || self.apart.around(),
+            |whole| {
+                let radius = whole.extent * FAR;
+                Around { center: narrow(whole.center), radius_squared: radius * radius }
+            },
+        )
+    }
+
+    fn ask<Q: Question<V>>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) {
         if !self.apart.is_empty() {
-            if !packet.scan(lanes, &self.apart, self.first_apart(), question) {
-                return false;
-            }
+            packet.scan(lanes, &self.apart, self.first_apart(), question);
             packet.update_farthest();
         }
+        let Some(whole) = self.regions.first().filter(|_| packet.alive != 0) else { return };
         let mut slabs = Slabs::EMPTY;
-        lanes.run(Prepare::new(&mut slabs, packet, self.largest_coordinate));
-        let frustum = Frustum::new(packet, self.largest_coordinate, MARGIN);
+        lanes.run(Prepare::new(&mut slabs, packet, whole));
+        let frustum = Frustum::new(packet, whole, MARGIN);
         let mut entries = Numbers([0.0; LANES]);
         let mut waiting = ArrayVec::<(Key, Mask), MOST_WAITING>::new();
-        let (mut place, mut rays) = (self.root, packet.alive);
+        let (mut place, mut rays) = (whole.root, packet.alive);
         loop {
             if place & LEAF != 0 {
                 if !self.ask_leaf(lanes, packet, place & !LEAF, rays, question) {
-                    return false;
+                    return;
                 }
             } else if let Some(node) = self.nodes.get(place as usize) {
                 let end = packet.farthest;
@@ -86,9 +97,12 @@ impl Collection for Tree {
                 }
                 let pushed = waiting.get_mut(first..).unwrap_or_default();
                 pushed.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+                if node.region().is_some() {
+                    packet.leave_alone(rays);
+                }
             }
             loop {
-                let Some((key, asked)) = waiting.pop() else { return true };
+                let Some((key, asked)) = waiting.pop() else { return };
                 let asked = asked & packet.alive;
                 let (place_of_node, lane) =
                     (child(key) as usize / LANES, child(key) as usize % LANES);
@@ -98,7 +112,7 @@ impl Collection for Tree {
                 let Some(boxes) = self.nodes.get(place_of_node) else { continue };
                 rays = lanes.run(Enter { slabs: &slabs, packet, boxes, lane, rays: asked });
                 if !packet.pays(2 + Packet::tests(asked), 2 * rays.count_ones()) {
-                    return false;
+                    return;
                 }
                 if rays != 0 {
                     place = boxes.child(child(key) % 16);
@@ -108,7 +122,11 @@ impl Collection for Tree {
         }
     }
 
-    fn member(&self, place: u32) -> Option<(usize, Sphere)> {
+    fn sphere(&self, index: usize) -> Option<Sphere<V>> {
+        self.get(index)
+    }
+
+    fn member(&self, place: u32) -> Option<(usize, Sphere<V>)> {
         let (leaf, lane) = (place as usize / LANES, place as usize % LANES);
         let index = match self.leaves.get(leaf) {
             Some(leaf) => leaf.index(lane),
@@ -117,18 +135,23 @@ impl Collection for Tree {
         Some((index as usize, self.at_place(place)?))
     }
 
-    fn nearest_alone(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
+    fn nearest_alone(
+        &self,
+        lanes: Lanes,
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> Option<(usize, Hit<V>)> {
         self.nearest(lanes, ray, range)
     }
 
-    fn occludes_alone(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> bool {
+    fn occludes_alone(&self, lanes: Lanes, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         self.occludes(lanes, ray, range)
     }
 }
 
-impl Tree {
-    /// Asks the spheres of a leaf.
-    fn ask_leaf<Q: Question>(
+impl<V: Vector> Tree<V> {
+    /// Asks the spheres of a leaf. Returns `false` where the packet is given up.
+    fn ask_leaf<Q: Question<V>>(
         &self,
         lanes: Lanes,
         packet: &mut Packet,

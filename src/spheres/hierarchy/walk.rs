@@ -1,20 +1,27 @@
 //! The way of a ray through the hierarchy: the nearest box first, and none that begins beyond the nearest hit so far.
+//!
+//! A region inside of another ([`region`](super::region)) is walked through before what waits outside. On the way, `t` counts
+//! from where the ray begins anew for the region: entries and the end that they are compared with.
 
 use core::ops::Range;
 
 use arrayvec::ArrayVec;
 
-use super::boxes::{self, Boxes, Slabs};
-use super::leaf::{Leaf, NONE, Tube};
-use super::split::DEEPEST;
+use super::boxes::Boxes;
+use super::build::number;
+use super::leaf::{Leaf, NONE};
+use super::region::{Region, Way};
+use super::split::{DEEPEST, MOST_NESTED};
 use super::{LEAF, Tree};
 use crate::float::sqrt;
-use crate::spheres::filter::Segment;
+use crate::root::order::is_nearer;
+use crate::spheres::filter::{LARGEST, Segment};
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
-use crate::{Hit, Hittable, Ray, Sphere};
+use crate::spheres::local::{above, local_end, narrow, to_f32};
+use crate::{Hit, Hittable, Ray, Scalar, Sphere, Vector};
 
-/// How much waits to be visited at most: of each node on the way to a leaf, all children but one.
-pub(super) const MOST_WAITING: usize = DEEPEST * (LANES - 1);
+/// How much waits to be visited at most: of each node on the way to a leaf, all children but one, and of each region the way out.
+pub(super) const MOST_WAITING: usize = DEEPEST * (LANES - 1) + MOST_NESTED;
 
 /// A node or a leaf that waits, and where the ray enters its box: the bits of that distance, which is not negative, are above
 /// those of what it is. So the nearer has the lower key.
@@ -39,22 +46,17 @@ pub(super) fn child(key: Key) -> u32 {
     child
 }
 
-/// The float after one that is positive and finite.
-#[inline(always)]
-pub(super) fn above(t: f32) -> f32 {
-    f32::from_bits(t.to_bits() + 1)
-}
-
 /// Numbers of 16 boxes or spheres, where one instruction can write them.
 #[derive(Default)]
 #[repr(align(64))]
 struct Numbers([f32; LANES]);
 
 /// A ray on its way.
-struct Query {
-    slabs: Slabs,
-    tube: Tube,
-    /// The end of the range, or that of what is nearer than the nearest hit so far.
+#[derive(Default)]
+struct Query<S> {
+    /// Through the region that it is in.
+    way: Way<S>,
+    /// The end of the range, or that of what is nearer than the nearest hit so far, as it is on that way.
     end: f32,
     /// Where the ray enters the boxes of the last node; of the spheres of the last leaf, where it is nearest to the center.
     entries: Numbers,
@@ -62,18 +64,49 @@ struct Query {
     clearances: Numbers,
 }
 
-impl Query {
+impl<S: Scalar> Query<S> {
+    /// Goes into a region. Returns whether the ray may enter one of its boxes before `end`.
+    #[inline(always)]
+    fn enter<V: Vector<Scalar = S>>(&mut self, region: &Region<V>, ray: &Ray<V>, end: S) -> bool {
+        let enters = region.enter(ray, end, &mut self.way);
+        if enters {
+            self.set_end(end);
+        }
+        enters
+    }
+
+    /// Goes back into a region.
+    fn enter_again<V: Vector<Scalar = S>>(&mut self, region: &Region<V>, ray: &Ray<V>, end: S) {
+        region.enter(ray, S::INFINITY, &mut self.way);
+        self.set_end(end);
+    }
+
+    #[inline(always)]
+    fn set_end(&mut self, end: S) {
+        self.end = local_end(end, self.way.moved);
+    }
+
+    /// Which spheres of a leaf the ray may meet.
+    #[inline(always)]
+    fn near(&mut self, lanes: Lanes, leaf: &Leaf<S>) -> u32 {
+        if self.way.moved == 0.0 {
+            lanes.run(Near::<S, false> { leaf, query: self })
+        } else {
+            lanes.run(Near::<S, true> { leaf, query: self })
+        }
+    }
+
     /// Of these spheres of the last leaf, the one that the ray probably enters first.
     #[inline(never)]
-    fn first_of(&self, mut near: u32, length: f32) -> usize {
+    fn first_of(&self, mut near: u32) -> usize {
+        let length = self.way.tube.length();
         let mut first = near.trailing_zeros() as usize % LANES;
         let mut least = f32::INFINITY;
         while near != 0 {
             let lane = near.trailing_zeros() as usize % LANES;
             near &= near - 1;
             // How far the closest approach is, less the half-chord.
-            #[expect(clippy::cast_possible_truncation, reason = "it is that of an f32")]
-            let half_chord = sqrt(f64::from(-self.clearances.0[lane])) as f32;
+            let half_chord = to_f32(sqrt(f64::from(-self.clearances.0[lane])));
             let entry = self.entries.0[lane] * length - half_chord;
             if entry < least {
                 (first, least) = (lane, entry);
@@ -85,86 +118,94 @@ impl Query {
 
 /// Asks which boxes of a node the ray enters. These two, and the exact routine, do not share a function: the compiler would save
 /// and restore the vectors. Two references are passed in registers.
-struct Enter<'a> {
+struct Enter<'a, S> {
     node: &'a Boxes,
-    query: &'a mut Query,
+    query: &'a mut Query<S>,
 }
 
-impl Vectorized for Enter<'_> {
+impl<S: Scalar> Vectorized for Enter<'_, S> {
     type Output = u32;
 
     #[inline(always)]
     fn run<I: Instructions>(self, instructions: I) -> u32 {
-        let Query { slabs, end, entries, .. } = self.query;
-        self.node.entered(instructions, slabs, *end, &mut entries.0)
+        let Query { way, end, entries, .. } = self.query;
+        self.node.entered(instructions, &way.slabs, *end, &mut entries.0)
     }
 }
 
-/// Asks which spheres of a leaf the ray may meet.
-struct Near<'a> {
-    leaf: &'a Leaf,
-    query: &'a mut Query,
+/// Asks which spheres of a leaf the ray may meet, which begins anew or not.
+struct Near<'a, S, const MOVED: bool> {
+    leaf: &'a Leaf<S>,
+    query: &'a mut Query<S>,
 }
 
-impl Vectorized for Near<'_> {
+impl<S: Scalar, const MOVED: bool> Vectorized for Near<'_, S, MOVED> {
     type Output = u32;
 
     #[inline(always)]
     fn run<I: Instructions>(self, instructions: I) -> u32 {
-        let Query { tube, end, entries, clearances, .. } = self.query;
-        self.leaf.near(instructions, tube, *end, &mut entries.0, &mut clearances.0)
+        let Query { way: Way { tube, .. }, end, entries, clearances } = self.query;
+        let (closest, clearances) = (&mut entries.0, &mut clearances.0);
+        if MOVED {
+            self.leaf.near_moved(instructions, tube, *end, closest, clearances)
+        } else {
+            self.leaf.near(instructions, tube, *end, closest, clearances)
+        }
     }
 }
 
-impl Tree {
+impl<V: Vector> Tree<V> {
     /// Calls `ask` for every sphere in the leaves that the ray may meet before `end`, and perhaps for others, the nearest boxes
     /// first. What it returns is the new end; a negative one ends the walk.
     #[inline(always)]
     fn walk(
         &self,
         lanes: Lanes,
-        ray: &Ray,
-        end: f32,
-        mut ask: impl FnMut(u32, &Sphere, f32) -> Option<f32>,
+        ray: &Ray<V>,
+        mut end: V::Scalar,
+        mut ask: impl FnMut(u32, &Sphere<V>, V::Scalar) -> Option<V::Scalar>,
     ) {
-        let mut query = Query {
-            slabs: Slabs::new(ray, self.largest_coordinate, boxes::MARGIN),
-            tube: Tube::new(ray),
-            end,
-            entries: Numbers::default(),
-            clearances: Numbers::default(),
-        };
+        // A NaN is no end of a range, and would open the boxes of no child.
+        let is_range = end > V::Scalar::ZERO;
+        let Some(whole) = self.regions.first().filter(|_| is_range) else { return };
+        let mut query = Query::default();
+        if !query.enter(whole, ray, end) {
+            return;
+        }
         // Not cleared first: that would take as long as some visits.
         let mut waiting = ArrayVec::<Key, MOST_WAITING>::new();
-        let mut next = key(0.0, self.root);
+        // Numbers behind those of all nodes are regions that the walk goes back to.
+        let outside = number(self.nodes.len());
+        let mut region = 0;
+        let mut next = key(0.0, whole.root);
         loop {
             let place = child(next);
             if place & LEAF != 0 {
                 let Some(leaf) = self.leaves.get((place & !LEAF) as usize) else { return };
-                let mut near = lanes.run(Near { leaf, query: &mut query });
+                let mut near = query.near(lanes, leaf);
                 while near != 0 {
                     let lane = if near.is_power_of_two() {
                         near.trailing_zeros() as usize % LANES
                     } else {
-                        query.first_of(near, ray.direction.length())
+                        query.first_of(near)
                     };
                     near &= !(1 << lane);
                     if leaf.index(lane) == NONE {
                         continue;
                     }
-                    if let Some(end) = ask(leaf.index(lane), &leaf.sphere(lane), query.end) {
-                        if end < 0.0 {
+                    if let Some(nearer) = ask(leaf.index(lane), &leaf.sphere(lane), end) {
+                        if nearer < V::Scalar::ZERO {
                             return;
                         }
-                        query.end = end;
+                        end = nearer;
+                        query.set_end(end);
                         if near != 0 {
                             // Most of the others are beyond that.
-                            near &= lanes.run(Near { leaf, query: &mut query });
+                            near &= query.near(lanes, leaf);
                         }
                     }
                 }
-            } else {
-                let Some(node) = self.nodes.get(place as usize) else { return };
+            } else if let Some(node) = self.nodes.get(place as usize) {
                 let mut entered = lanes.run(Enter { node, query: &mut query });
                 if entered != 0 {
                     let entries = &query.entries.0;
@@ -194,6 +235,23 @@ impl Tree {
                     }
                     continue;
                 }
+                // No box is entered, or the node is the door of a region.
+                if let Some(inner) = node.region() {
+                    let Some(inside) = self.regions.get(inner as usize) else { return };
+                    if query.enter(inside, ray, end) {
+                        if !waiting.is_empty() {
+                            // There is room for it.
+                            let _ = waiting.try_push(key(0.0, outside + region));
+                        }
+                        region = inner;
+                        next = key(0.0, inside.root);
+                        continue;
+                    }
+                }
+            } else {
+                region = place - outside;
+                let Some(back) = self.regions.get(region as usize) else { return };
+                query.enter_again(back, ray, end);
             }
             loop {
                 let Some(key) = waiting.pop() else { return };
@@ -209,27 +267,27 @@ impl Tree {
     pub(super) fn nearest(
         &self,
         lanes: Lanes,
-        ray: &Ray,
-        range: Range<f32>,
-    ) -> Option<(usize, Hit)> {
-        if !Segment::allows(ray) {
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> Option<(usize, Hit<V>)> {
+        if !allows(ray) {
             return self.nearest_of_all(ray, range);
         }
         let Range { start, end } = range;
         let mut nearest = None;
         self.walk(lanes, ray, end, |index, sphere, end| {
             let hit = sphere.intersect(ray, start..end)?;
-            is_nearer((index, hit), nearest).then(|| {
+            self.is_nearer(ray, (index, &hit), nearest.as_ref()).then(|| {
                 nearest = Some((index, hit));
                 // Equal distances too: they may be those of a lower index.
-                above(hit.t)
+                above::<V>(hit.t)
             })
         });
         if !self.apart.is_empty() {
-            let end = nearest.map_or(end, |(_, hit)| above(hit.t));
+            let end = nearest.map_or(end, |(_, hit)| above::<V>(hit.t));
             if let Some((place, hit)) = self.apart.nearest_in_lanes(lanes, ray, start..end) {
                 let found = (*self.apart_indices.get(place)?, hit);
-                if is_nearer(found, nearest) {
+                if self.is_nearer(ray, (found.0, &found.1), nearest.as_ref()) {
                     nearest = Some(found);
                 }
             }
@@ -239,8 +297,8 @@ impl Tree {
     }
 
     /// Whether any sphere is hit.
-    pub(super) fn occludes(&self, lanes: Lanes, ray: &Ray, range: Range<f32>) -> bool {
-        if !Segment::allows(ray) {
+    pub(super) fn occludes(&self, lanes: Lanes, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
+        if !allows(ray) {
             return self.nearest_of_all(ray, range).is_some();
         }
         if !self.apart.is_empty() && self.apart.occludes_in_lanes(lanes, ray, range.clone()) {
@@ -249,16 +307,16 @@ impl Tree {
         let mut occludes = false;
         self.walk(lanes, ray, range.end, |_, sphere, _| {
             occludes = sphere.occludes(ray, range.clone());
-            occludes.then_some(-1.0)
+            occludes.then_some(-V::Scalar::ONE)
         });
         occludes
     }
 
     /// The nearest of all spheres, each asked exactly, for a ray that the filters cannot compute with.
     #[cold]
-    fn nearest_of_all(&self, ray: &Ray, range: Range<f32>) -> Option<(usize, Hit)> {
+    fn nearest_of_all(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<(usize, Hit<V>)> {
         let Ray { origin, direction } = *ray;
-        if !(origin.is_finite() && direction.is_finite()) {
+        if !(origin.to_f64().is_finite() && direction.to_f64().is_finite()) {
             return None;
         }
         let Range { start, mut end } = range;
@@ -266,16 +324,33 @@ impl Tree {
         for (index, &place) in self.places.iter().enumerate() {
             let hit = self.at_place(place).and_then(|sphere| sphere.intersect(ray, start..end));
             if let Some(hit) = hit {
-                end = hit.t;
-                nearest = Some((index, hit));
+                if self.is_nearer(ray, (number(index), &hit), nearest.as_ref()) {
+                    end = above::<V>(hit.t);
+                    nearest = Some((number(index), hit));
+                }
             }
         }
-        nearest
+        let (index, hit) = nearest?;
+        Some((index as usize, hit))
+    }
+
+    /// Whether a hit comes before the nearest so far.
+    #[inline(always)]
+    fn is_nearer(
+        &self,
+        ray: &Ray<V>,
+        (index, hit): (u32, &Hit<V>),
+        nearest: Option<&(u32, Hit<V>)>,
+    ) -> bool {
+        nearest.is_none_or(|&(other, nearest)| {
+            let spheres = || [index, other].map(|index| self.get(index as usize));
+            is_nearer(ray, (index, hit.t), (other, nearest.t), spheres)
+        })
     }
 }
 
-/// Whether a hit comes before the nearest so far.
+/// Whether the filters can compute with a ray.
 #[inline(always)]
-pub(super) fn is_nearer((index, hit): (u32, Hit), nearest: Option<(u32, Hit)>) -> bool {
-    nearest.is_none_or(|(lowest, nearest)| (hit.t, index) < (nearest.t, lowest))
+fn allows<V: Vector>(ray: &Ray<V>) -> bool {
+    Segment::allows(narrow(ray.origin), narrow(ray.direction), LARGEST * LARGEST)
 }

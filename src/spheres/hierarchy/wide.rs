@@ -1,8 +1,8 @@
 //! Makes nodes of up to 16 boxes, and leaves, of a binary tree.
 //!
-//! Those splits become nodes for which the sum of the areas of all nodes and leaves is least: that is how many of them a ray visits
-//! (Ylitie, Karras and Laine, *Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs*, 2017, section 3.1). With
-//! C(n, i) for the least sum below and in split n, in i boxes at most, l and r for its halves, and A for its area,
+//! Those splits become nodes for which the sum of the areas of all nodes and leaves is least: that is how many of them a ray
+//! visits (Ylitie, Karras and Laine, *Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs*, 2017, section
+//! 3.1). With C(n, i) for the least sum below and in split n, in i boxes at most, l and r for its halves, and A for its area,
 //!
 //! ```text
 //! C(n, 1) = A(n)                                       of a leaf
@@ -11,18 +11,20 @@
 //! D(n, i) = min over k of C(l, k) + C(r, i - k)
 //! ```
 //!
-//! M is what a node costs besides, for its memory: without it, many small ones would have few children.
+//! M is what a node costs besides, for its memory: without it, many small ones would have few children. A region inside of
+//! another is one box, whatever is in it: C(n, i) = C(n, 1). A node without boxes is its door.
 
 use alloc::vec::Vec;
 
-use glam::Vec3;
-
 use super::LEAF;
-use super::boxes::Boxes;
-use super::build::{Member, bounds_of, leaf, number};
+use super::bounds::Bounds;
+use super::boxes::{Boxes, LEAST_COORDINATE};
+use super::build::{Member, leaf, number};
 use super::leaf::Leaf;
-use super::split::Split;
+use super::region::Region;
+use super::split::{Binary, Split};
 use crate::spheres::lanes::LANES;
+use crate::{Sphere, Vector};
 
 /// M for all leaves together, in areas of the root.
 const MEMORY: f32 = 4.0;
@@ -38,55 +40,81 @@ struct Costs {
 }
 
 /// The leaves and the nodes, and what they are made of.
-pub(super) struct Wide<'a> {
+pub(super) struct Wide<'a, V: Vector> {
+    spheres: &'a [Sphere<V>],
     members: &'a [Member],
     splits: &'a [Split],
+    centers: &'a [V],
     costs: Vec<Costs>,
-    pub(super) leaves: Vec<Leaf>,
-    /// The root first.
+    pub(super) leaves: Vec<Leaf<V::Scalar>>,
     pub(super) nodes: Vec<Boxes>,
+    /// The whole tree first.
+    pub(super) regions: Vec<Region<V>>,
     /// Of each sphere, by its index, the leaf and the lane that it is in.
     pub(super) places: Vec<u32>,
 }
 
-impl<'a> Wide<'a> {
-    pub(super) fn new(members: &'a [Member], splits: &'a [Split], places: Vec<u32>) -> Self {
+impl<'a, V: Vector> Wide<'a, V> {
+    pub(super) fn new(
+        spheres: &'a [Sphere<V>],
+        members: &'a [Member],
+        Binary { splits, centers }: &'a Binary<V>,
+        places: Vec<u32>,
+    ) -> Self {
+        let regions = centers
+            .iter()
+            .map(|&center| Region { center, extent: LEAST_COORDINATE, root: LEAF })
+            .collect();
         Self {
+            spheres,
             members,
             splits,
+            centers,
             costs: costs(splits),
             leaves: Vec::with_capacity(splits.iter().filter(|split| split.is_leaf()).count()),
             nodes: Vec::new(),
+            regions,
             places,
         }
     }
 
-    /// Makes all of them. Returns where a ray begins.
-    pub(super) fn make(&mut self) -> u32 {
-        let Some(top) = self.splits.len().checked_sub(1) else { return LEAF };
-        if self.splits[top].is_leaf() {
-            self.leaf(top);
-            LEAF
+    /// Makes all of them.
+    pub(super) fn make(&mut self) {
+        let Some(top) = self.splits.len().checked_sub(1) else { return };
+        self.region(top, 0);
+        self.nodes.shrink_to_fit();
+    }
+
+    /// Makes the region of a split. Returns the box around it.
+    fn region(&mut self, split: usize, region: usize) -> Bounds {
+        let center = self.centers[region];
+        let (root, bounds) = if self.splits[split].is_leaf() {
+            let bounds = self.leaf(split);
+            (number(self.leaves.len() - 1) | LEAF, bounds)
         } else {
+            let root = self.nodes.len();
             self.nodes.push(Boxes::EMPTY);
-            self.node(top, 0);
-            self.nodes.shrink_to_fit();
-            0
-        }
+            (number(root), self.node(split, root, center))
+        };
+        let (low, high) = bounds.relative_to(center);
+        let extent = low.abs().max(high.abs()).max_element().max(LEAST_COORDINATE);
+        self.regions[region] = Region { center, extent, root };
+        bounds
     }
 
     /// Makes the leaf of a split. Returns the box around it.
-    fn leaf(&mut self, split: usize) -> (Vec3, Vec3) {
+    fn leaf(&mut self, split: usize) -> Bounds {
         let members = &self.members[self.splits[split].members()];
         for (lane, member) in members.iter().enumerate() {
             self.places[member.index as usize] = number(self.leaves.len() * LANES + lane);
         }
-        self.leaves.extend(leaf(members));
-        bounds_of(members)
+        let Some((leaf, bounds)) = leaf(members, self.spheres) else { return Bounds::NONE };
+        self.leaves.push(leaf);
+        bounds
     }
 
     /// Makes the node of a split, at that place. Returns the box around it.
-    fn node(&mut self, split: usize, place: usize) -> (Vec3, Vec3) {
+    fn node(&mut self, split: usize, place: usize, center: V) -> Bounds {
         let mut children = Vec::with_capacity(LANES);
         let [left, right] = self.splits[split].halves.map(|half| half as usize);
         let first = usize::from(self.costs[split].first_of_node);
@@ -98,17 +126,25 @@ impl<'a> Wide<'a> {
         let mut boxes = Boxes::EMPTY;
         boxes.set_children(number(self.leaves.len()), number(first_node), number(leaves));
         self.nodes.resize(first_node + children.len() - leaves, Boxes::EMPTY);
-        for (lane, &child) in children.iter().enumerate().take(leaves) {
-            let bounds = self.leaf(child);
-            boxes.set(lane, bounds);
+        let mut all = Bounds::NONE;
+        for (lane, &child) in children.iter().enumerate() {
+            let bounds = if lane < leaves {
+                self.leaf(child)
+            } else {
+                let place = first_node + lane - leaves;
+                match self.splits[child].region {
+                    Some(region) => {
+                        self.nodes[place] = Boxes::door(region);
+                        self.region(child, region as usize)
+                    }
+                    None => self.node(child, place, center),
+                }
+            };
+            boxes.set(lane, bounds.relative_to(center));
+            all = all.and(bounds);
         }
-        for (lane, &child) in children.iter().enumerate().skip(leaves) {
-            let bounds = self.node(child, first_node + lane - leaves);
-            boxes.set(lane, bounds);
-        }
-        let bounds = boxes.bounds();
         self.nodes[place] = boxes;
-        bounds
+        all
     }
 
     /// Collects the splits that up to so many boxes in a split are.
@@ -141,8 +177,9 @@ fn costs(splits: &[Split]) -> Vec<Costs> {
             let [left, right] = split.halves.map(|half| &costs[half as usize].least);
             let (below, first_of_node) = in_both(left, right, LANES);
             all.first_of_node = first_of_node;
-            all.least[0] = split.area + of_memory + below;
-            for boxes in 2..=LANES {
+            all.least = [split.area + of_memory + below; LANES];
+            let most = if split.region.is_some() { 1 } else { LANES };
+            for boxes in 2..=most {
                 let (below, first) = in_both(left, right, boxes);
                 (all.least[boxes - 1], all.first[boxes - 1]) = if below < all.least[boxes - 2] {
                     (below, first)
@@ -174,58 +211,95 @@ mod tests {
     use std::mem::size_of;
     use std::vec::Vec;
 
+    use glam::Vec3;
     use sobol_burley::sample;
 
     use super::*;
-    use crate::Sphere;
     use crate::spheres::hierarchy::leaf::NONE;
     use crate::spheres::hierarchy::split::split_up;
 
-    /// Every sphere is in one leaf, every leaf and every node but the root in one box, and every box around what is in it.
+    /// A tree of spheres and what they are.
+    fn wide_of<T>(spheres: &[Sphere], then: impl FnOnce(&Wide<Vec3>) -> T) -> T {
+        let mut members: Vec<Member> = (0..)
+            .zip(spheres)
+            .map(|(index, sphere)| Member::new(index, sphere, Vec3::ZERO))
+            .collect();
+        let binary = split_up(&mut members, spheres);
+        let mut wide = Wide::new(spheres, &members, &binary, std::vec![u32::MAX; spheres.len()]);
+        wide.make();
+        then(&wide)
+    }
+
+    /// Every sphere is in one leaf, every leaf and every node but the roots in one box, and every box around what is in it.
     #[test]
     fn boxes_are_around_what_is_in_them() {
-        for count in [1, 16, 17, 256, 257, 3000] {
-            let mut members: Vec<Member> = (0..count)
+        // Clusters far from each other are regions.
+        for (clusters, count) in
+            [(1, 1), (1, 16), (1, 17), (1, 256), (1, 257), (1, 3000), (7, 3000), (100, 3000)]
+        {
+            let spheres: Vec<Sphere> = (0..count)
                 .map(|index| {
                     let random = |dimension| sample(index, dimension, 6);
-                    let center = Vec3::new(random(0), random(1), random(2).powi(3));
-                    Member::new(index, Sphere::new(center, random(3).powi(4)))
+                    let cluster = |dimension| sample(index % clusters, dimension, 6) * 1e6;
+                    let center = Vec3::new(
+                        random(0) + cluster(1),
+                        random(1) + cluster(2),
+                        random(2).powi(3) + cluster(3),
+                    );
+                    Sphere::new(center, random(3).powi(4))
                 })
                 .collect();
-            let splits = split_up(&mut members);
-            let mut wide = Wide::new(&members, &splits, std::vec![u32::MAX; count as usize]);
-            let mut waiting = std::vec![(wide.make(), None)];
-            let (mut leaves, mut nodes, mut spheres) = (0, 0, 0);
-            while let Some((child, bounds)) = waiting.pop() {
-                let (low, high) = bounds.unwrap_or((Vec3::NEG_INFINITY, Vec3::INFINITY));
-                if child & LEAF != 0 {
-                    leaves += 1;
-                    let place = (child & !LEAF) as usize;
-                    for lane in 0..LANES {
-                        let index = wide.leaves[place].index(lane);
-                        if index != NONE {
-                            spheres += 1;
-                            let sphere = wide.leaves[place].sphere(lane);
-                            assert!(sphere.bounds().0.cmpge(low).all());
-                            assert!(sphere.bounds().1.cmple(high).all());
-                            assert_eq!(wide.places[index as usize], number(place * LANES + lane));
-                        }
-                    }
-                } else {
-                    nodes += 1;
-                    let node = &wide.nodes[child as usize];
-                    assert!(node.bounds().0.cmpge(low).all() && node.bounds().1.cmple(high).all());
-                    for lane in 0..LANES {
-                        let bounds = node.bounds_of(lane);
-                        if bounds.0.cmple(bounds.1).all() {
-                            waiting.push((node.child(number(lane)), Some(bounds)));
-                        }
+            wide_of(&spheres, |wide| check(wide, count, clusters > 1));
+        }
+    }
+
+    fn check(wide: &Wide<Vec3>, count: u32, has_regions: bool) {
+        let first = &wide.regions[0];
+        let mut waiting = std::vec![(first.root, first, None)];
+        let (mut leaves, mut nodes, mut spheres, mut all_regions) = (0, 0, 0, 1);
+        while let Some((child, region, bounds)) = waiting.pop() {
+            let (low, high) = bounds.unwrap_or((Vec3::NEG_INFINITY, Vec3::INFINITY));
+            let is_in = |(lowest, highest): (Vec3, Vec3)| {
+                lowest.cmpge(low).all() && highest.cmple(high).all()
+            };
+            if child & LEAF != 0 {
+                leaves += 1;
+                let place = (child & !LEAF) as usize;
+                for lane in 0..LANES {
+                    let index = wide.leaves[place].index(lane);
+                    if index != NONE {
+                        spheres += 1;
+                        let sphere: Sphere = wide.leaves[place].sphere(lane);
+                        assert!(is_in(Bounds::of(&sphere).relative_to(region.center)));
+                        assert_eq!(sphere, wide.spheres[index as usize]);
+                        assert_eq!(wide.places[index as usize], number(place * LANES + lane));
                     }
                 }
+                continue;
             }
-            assert_eq!((leaves, nodes), (wide.leaves.len(), wide.nodes.len()), "{count}");
-            assert_eq!(spheres, count);
+            nodes += 1;
+            let node = &wide.nodes[child as usize];
+            if let Some(inner) = node.region() {
+                all_regions += 1;
+                let inner = &wide.regions[inner as usize];
+                assert!(inner.extent * 1024.0 < region.extent);
+                waiting.push((inner.root, inner, None));
+                continue;
+            }
+            let (lowest, highest) = node.bounds();
+            assert!(is_in((lowest, highest)));
+            assert!(lowest.abs().max(highest.abs()).max_element() <= region.extent);
+            for lane in 0..LANES {
+                let bounds = node.bounds_of(lane);
+                if bounds.0.cmple(bounds.1).all() {
+                    waiting.push((node.child(number(lane)), region, Some(bounds)));
+                }
+            }
         }
+        assert_eq!((leaves, nodes), (wide.leaves.len(), wide.nodes.len()), "{count}");
+        assert_eq!(spheres, count);
+        assert_eq!(wide.regions.len(), all_regions);
+        assert_eq!(all_regions > 1, has_regions, "{count}: {all_regions}");
     }
 
     /// With the place of each sphere, at most 32 bytes a sphere.
@@ -234,21 +308,20 @@ mod tests {
         for (group, extent) in [(1, 0.0), (9, 0.001), (9, 0.3), (17, 0.01), (100, 0.1), (40, 0.02)]
         {
             let random = |index, dimension| sample(index, dimension, 8);
-            let mut members: Vec<Member> = (0..10_000)
+            let spheres: Vec<Sphere> = (0..10_000)
                 .map(|index| {
                     let center = [0, 1, 2].map(|dimension| {
                         random(index / group, dimension) + extent * random(index, 3 + dimension)
                     });
-                    Member::new(index, Sphere::new(center.into(), 0.001))
+                    Sphere::new(center.into(), 0.001)
                 })
                 .collect();
-            let splits = split_up(&mut members);
-            let mut wide = Wide::new(&members, &splits, std::vec![0; members.len()]);
-            wide.make();
-            let bytes = size_of::<Leaf>() * wide.leaves.capacity()
-                + size_of::<Boxes>() * wide.nodes.capacity()
-                + size_of::<u32>() * wide.places.capacity();
-            let limit = 32 * members.len();
+            let bytes = wide_of(&spheres, |wide| {
+                size_of::<Leaf<f32>>() * wide.leaves.capacity()
+                    + size_of::<Boxes>() * wide.nodes.capacity()
+                    + size_of::<u32>() * wide.places.capacity()
+            });
+            let limit = 32 * spheres.len();
             assert!(bytes <= limit, "groups of {group} in {extent}: {bytes} bytes");
         }
     }
@@ -256,15 +329,13 @@ mod tests {
     /// 256 spheres need one node, and no tree of the same splits has fewer.
     #[test]
     fn nodes_are_few() {
-        let mut members: Vec<Member> = (0..4096)
+        let spheres: Vec<Sphere> = (0..4096)
             .map(|index| {
                 let center = Vec3::from([0, 1, 2].map(|dimension| sample(index, dimension, 7)));
-                Member::new(index, Sphere::new(center, 0.01))
+                Sphere::new(center, 0.01)
             })
             .collect();
-        let splits = split_up(&mut members);
-        let mut wide = Wide::new(&members, &splits, std::vec![0; members.len()]);
-        wide.make();
-        assert!(wide.nodes.len() <= 22, "{}", wide.nodes.len());
+        let nodes = wide_of(&spheres, |wide| wide.nodes.len());
+        assert!(nodes <= 22, "{nodes}");
     }
 }

@@ -30,9 +30,11 @@
 use glam::{DVec3, Vec3};
 
 use super::{Extent, LEAST_POSITIVE, Sixteen, square};
+use crate::Scalar;
 use crate::float::sqrt;
 use crate::spheres::filter::Block;
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
+use crate::spheres::local::to_f32;
 
 /// By which part of itself R is made larger, and by which part of m |D| besides: 32 u. See the derivation above.
 const MARGIN: f64 = 16.0 * f32::EPSILON as f64;
@@ -108,20 +110,27 @@ impl Cone {
         })
     }
 
+    /// The same with coordinates relative to a center. The rounding of a difference is less than what it adds.
+    pub(super) fn relative_to(&self, center: Vec3) -> Self {
+        let origin = self.origin - center;
+        let base = self.base + origin.abs().element_sum() * f32::EPSILON;
+        Self { origin, base, ..*self }
+    }
+
     /// Which of 16 spheres may be hit before `end`, a bit for each: of the centers' coordinates and the radii.
     #[inline(always)]
-    pub(in crate::spheres) fn near<I: Instructions>(
+    pub(in crate::spheres) fn near<S: Scalar, I: Instructions>(
         &self,
         instructions: I,
-        [centers_x, centers_y, centers_z, radii]: [&[f32; LANES]; 4],
+        [centers_x, centers_y, centers_z, radii]: [&[S; LANES]; 4],
         end: f32,
     ) -> u32 {
         let Self { origin, direction, over_a, factor, base, widening, first } = *self;
         let mut clearances = [0.0; LANES];
         for lane in 0..LANES {
-            let x = centers_x[lane] - origin.x;
-            let y = centers_y[lane] - origin.y;
-            let z = centers_z[lane] - origin.z;
+            let x = to_f32(centers_x[lane]) - origin.x;
+            let y = to_f32(centers_y[lane]) - origin.y;
+            let z = to_f32(centers_z[lane]) - origin.z;
             let m = instructions.multiply_add(over_a.y, y, over_a.x * x);
             let m = instructions.multiply_add(over_a.z, z, m);
             let m = if m > first { m } else { first };
@@ -129,7 +138,7 @@ impl Cone {
             let x = instructions.multiply_add(-m, direction.x, x);
             let y = instructions.multiply_add(-m, direction.y, y);
             let z = instructions.multiply_add(-m, direction.z, z);
-            let radius = instructions.multiply_add(radii[lane], factor, base);
+            let radius = instructions.multiply_add(to_f32(radii[lane]), factor, base);
             let radius = instructions.multiply_add(widening, m, radius);
             let one = instructions.multiply_add(y, y, x * x);
             clearances[lane] = one + instructions.multiply_add(-radius, radius, z * z);

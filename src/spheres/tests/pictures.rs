@@ -3,29 +3,26 @@
 use super::*;
 
 /// Rays that begin and go nearly as one does, or, if `mixed`, some that do not.
-fn neighbors(rng: &mut Rng, slice: &[Sphere], count: u64) -> Vec<Ray> {
+fn neighbors<V: Tested>(rng: &mut Rng, slice: &[Sphere<V>], count: u64) -> Vec<Ray<V>> {
     let base = questions::ray(rng, slice);
     let spread =
         |rng: &mut Rng| choose(rng, &[0.0, 0.0, 1e-7, 1e-5, 1e-3, 0.01, 0.03, 0.1, 0.3, 1.0]);
-    let length = base.direction.length();
-    let extent = slice.iter().map(|sphere| sphere.radius).fold(0.0, f32::max).min(1e6);
-    let (of_origin, of_direction) = (spread(rng) * extent, spread(rng) * length);
+    let (origin, direction) = (base.origin.to_f64(), base.direction.to_f64());
+    let extent = slice.iter().map(|sphere| sphere.radius.into()).fold(0.0, f64::max).min(1e6);
+    let (of_origin, of_direction) = (spread(rng) * extent, spread(rng) * direction.length());
     let mixed = rng.below(4) == 0;
     // Rays that meet where t is 1, as shadow rays do at a lamp.
     let meet = rng.below(4) == 0;
-    let mut rays: Vec<Ray> = (0..count)
+    let mut rays: Vec<Ray<V>> = (0..count)
         .map(|_| {
             if mixed && rng.below(6) == 0 {
                 return questions::ray(rng, slice);
             }
-            let mut inside = || {
-                let [x, y, z] = [(); 3].map(|()| rng.uniform(-1.0, 1.0));
-                glam::dvec3(x, y, z).as_vec3()
-            };
+            let mut inside = || DVec3::from([(); 3].map(|()| rng.uniform(-1.0, 1.0)));
             let moved = inside() * of_origin;
             let turned = inside() * of_direction;
             let turned = if meet { turned * 0.01 - moved } else { turned };
-            Ray::new(base.origin + moved, base.direction + turned)
+            ray(origin + moved, direction + turned)
         })
         .collect();
     if !rays.is_empty() && rng.below(4) == 0 {
@@ -39,15 +36,15 @@ fn neighbors(rng: &mut Rng, slice: &[Sphere], count: u64) -> Vec<Ray> {
     rays
 }
 
-impl Scene {
+impl<V: Tested> Scene<V> {
     #[track_caller]
-    fn assert_same_for_each(&self, rays: &[Ray], range: &Range<f32>) -> usize {
+    fn assert_same_for_each(&self, rays: &[Ray<V>], range: &Range<V::Scalar>) -> usize {
         let Self { slice, scan, bvh } = self;
         let expected: Vec<_> =
             rays.iter().map(|ray| bits(nearest(slice, ray, range.clone()))).collect();
         for lanes in Lanes::available() {
             // What is there before makes no difference.
-            let old = Some((7, Hit::new(1.0, Vec3::ONE, Vec3::ONE, 0.0)));
+            let old = Some((7, Hit::new(V::Scalar::ONE, V::ZERO, V::ZERO, V::Scalar::ZERO)));
             let mut by_scan = std::vec![old; rays.len()];
             scan.nearest_each_in_lanes(lanes, rays, range, &mut by_scan);
             let mut by_bvh = std::vec![old; rays.len()];
@@ -75,21 +72,20 @@ impl Scene {
 }
 
 /// `EYERAY_QUESTIONS=10000000 cargo test --release --lib spheres::tests::pictures -- --nocapture`
-#[test]
 #[expect(clippy::cast_possible_truncation, reason = "it is below the number of ranges")]
-fn packets_equal_one_ray_at_a_time_in_a_long_run() {
+fn many_equal_one_at_a_time_in_a_long_run<V: Tested>(by_default: u64) {
     let wanted = std::env::var("EYERAY_QUESTIONS");
-    let wanted: u64 = wanted.map_or(10_000, |number| number.parse().unwrap());
+    let wanted: u64 = wanted.map_or(by_default, |number| number.parse().unwrap());
     let most = if wanted < 100_000 { 300 } else { 1000 };
     let mut rng = Rng::new(wanted + 1);
     let (mut asked, mut hits) = (0, 0);
     while asked < wanted {
-        let scene = Scene::new(questions::scene(&mut rng, most));
+        let scene = Scene::<V>::new(questions::scene(&mut rng, most));
         for _ in 0..10 {
             let count =
                 choose(&mut rng, &[1, 4, 15, 16, 17, 40, 63, 64, 64, 64, 65, 100, 128, 150]);
             let rays = neighbors(&mut rng, &scene.slice, count);
-            hits += scene.assert_same_for_each(&rays, &ALL);
+            hits += scene.assert_same_for_each(&rays, &all::<V>());
             let ray = choose(&mut rng, &rays);
             let ranges = ranges(&mut rng, &scene.slice, &ray);
             scene.assert_same_for_each(&rays, &ranges[rng.below(ranges.len() as u64) as usize]);
@@ -98,4 +94,14 @@ fn packets_equal_one_ray_at_a_time_in_a_long_run() {
     }
     println!("{asked} rays of each set of instructions, {hits} hits in the whole range");
     assert!(hits as u64 > wanted / 10, "{hits}");
+}
+
+#[test]
+fn many_equal_one_at_a_time_in_a_long_run_in_f32() {
+    many_equal_one_at_a_time_in_a_long_run::<Vec3>(10_000);
+}
+
+#[test]
+fn many_equal_one_at_a_time_in_a_long_run_in_f64() {
+    many_equal_one_at_a_time_in_a_long_run::<DVec3>(2_000);
 }
