@@ -82,11 +82,8 @@ impl<V: Vector, C: Collection<V>> Question<V> for Nearest<'_, V, C> {
                 self.ask_exactly(ray_place, nearest);
             }
             self.ask_exactly(ray_place, place);
-            match self.found.get(ray_place) {
-                Some(Some((_, hit))) => {
-                    packet.set_nearest(ray_place, to_f32(hit.t), to_f32(above::<V>(hit.t)));
-                }
-                _ => {}
+            if let Some(Some((_, hit))) = self.found.get(ray_place) {
+                packet.set_nearest(ray_place, to_f32(hit.t), to_f32(above::<V>(hit.t)));
             }
         }
     }
@@ -96,7 +93,7 @@ impl<V: Vector, C: Collection<V>> Question<V> for Nearest<'_, V, C> {
 struct Occluded<'a, V: Vector> {
     rays: &'a [Ray<V>],
     range: &'a Range<V::Scalar>,
-    occluded: &'a mut [bool],
+    answers: &'a mut [bool],
 }
 
 impl<V: Vector> Question<V> for Occluded<'_, V> {
@@ -115,8 +112,8 @@ impl<V: Vector> Question<V> for Occluded<'_, V> {
         }
         for ray_place in Bits(surely) {
             packet.drop_ray(ray_place);
-            if let Some(occluded) = self.occluded.get_mut(ray_place) {
-                *occluded = true;
+            if let Some(is_occluded) = self.answers.get_mut(ray_place) {
+                *is_occluded = true;
             }
         }
     }
@@ -183,6 +180,8 @@ fn nearest_each<V: Vector>(
             collection.ask(lanes, &mut packet, &mut question);
             question.finish(&packet);
             asked &= !packet.alone;
+            #[cfg(test)]
+            tests::count(asked);
         }
         for ((place, ray), found) in rays.iter().enumerate().zip(found) {
             if asked >> place & 1 == 0 {
@@ -208,9 +207,11 @@ fn occludes_each<V: Vector>(
         }
         if asked != 0 {
             occluded.fill(false);
-            let mut question = Occluded { rays, range, occluded: &mut *occluded };
+            let mut question = Occluded { rays, range, answers: &mut *occluded };
             collection.ask(lanes, &mut packet, &mut question);
             asked &= !packet.alone;
+            #[cfg(test)]
+            tests::count(asked);
         }
         for ((place, ray), occluded) in rays.iter().enumerate().zip(occluded) {
             if asked >> place & 1 == 0 {
@@ -231,8 +232,12 @@ fn pairs<'a, V, T>(
 
 impl<V: Vector> Collection<V> for Spheres<V> {
     fn around(&self) -> Around {
-        let Middle { center, near_squared, .. } = self.middle;
-        Around { center: narrow(center), radius_squared: near_squared }
+        let Middle { center, extent, near_squared } = self.middle;
+        Around {
+            center: narrow(center),
+            radius_squared: near_squared,
+            neighbors: [extent * extent, 1.0],
+        }
     }
 
     fn ask<Q: Question<V>>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) {
@@ -262,7 +267,7 @@ impl<V: Vector> Spheres<V> {
     ///
     /// This takes less time than to ask one by one where rays that lie together follow each other, as those of the pixels of a small
     /// square do: give as many at once as there are, best in groups of 64, and of 16 in these. Any rays in any order are allowed;
-    /// those that share nothing take about as long as one by one.
+    /// those that share nothing take about as long as one by one, and so do all in `f64`.
     ///
     /// If the slices differ in length, the shorter one counts: rays without a place in `found` are not asked, and places in `found`
     /// without a ray are left as they are.
@@ -330,7 +335,7 @@ impl<V: Vector> SphereBvh<V> {
     ///
     /// This takes less time than to ask one by one where rays that lie together follow each other, as those of the pixels of a small
     /// square do: give as many at once as there are, best in groups of 64, and of 16 in these. Any rays in any order are allowed;
-    /// those that share nothing take about as long as one by one.
+    /// those that share nothing take about as long as one by one, and so do all in `f64`.
     ///
     /// If the slices differ in length, the shorter one counts: rays without a place in `found` are not asked, and places in `found`
     /// without a ray are left as they are.
@@ -395,5 +400,24 @@ impl<V: Vector> SphereBvh<V> {
             Shape::Scan(spheres) => occludes_each(spheres, lanes, rays, range, occluded),
             Shape::Tree(tree) => occludes_each(tree, lanes, rays, range, occluded),
         }
+    }
+}
+
+/// How many rays were asked together: else the tests of packets would test nothing.
+#[cfg(test)]
+pub(super) mod tests {
+    use core::cell::Cell;
+
+    use crate::spheres::packet::Mask;
+
+    std::thread_local!(static TOGETHER: Cell<u32> = const { Cell::new(0) });
+
+    pub(super) fn count(asked: Mask) {
+        TOGETHER.set(TOGETHER.get() + asked.count_ones());
+    }
+
+    /// Those of this thread since the last call.
+    pub(in crate::spheres) fn together() -> u32 {
+        TOGETHER.take()
     }
 }

@@ -8,6 +8,8 @@
 
 pub(super) mod bounds;
 pub(super) mod cone;
+#[cfg(test)]
+mod tests;
 
 use core::ops::Range;
 
@@ -31,7 +33,10 @@ const FEWEST: usize = 4;
 const RAYS_IN_A_TEST: u32 = 2;
 
 /// By how many tests of 16 rays a packet may fall behind before it is given up.
-const PATIENCE: i32 = 64;
+const PATIENCE: i32 = 32;
+
+/// How many pairs of rays tell whether they are neighbors.
+const PAIRS: usize = 4;
 
 /// In the place of a sphere, that there is none.
 const NOWHERE: u32 = u32::MAX;
@@ -125,7 +130,10 @@ impl Packet {
         let [start, end] = [range.start, range.end].map(to_f32);
         (self.alone, self.alive) = (0, 0);
         self.first = if start > 0.0 { start } else { LEAST_POSITIVE };
-        let is_empty = start.is_nan() || !(self.first < end);
+        if !around.are_neighbors(rays) {
+            return 0;
+        }
+        let is_empty = start.is_nan() || end.is_nan() || self.first >= end;
         let Some(ray) = rays.first().filter(|_| rays.len() >= FEWEST && !is_empty) else {
             return 0;
         };
@@ -153,8 +161,9 @@ impl Packet {
         }
         self.farthest = end;
         let extent = lanes.run(Prepare { sixteens, end });
-        (self.origins, self.directions) = (extent.origins, extent.slopes(end));
-        let Some(cone) = Cone::around(lanes, sixteens, &extent, self.first, end) else {
+        (self.origins, self.directions) = (extent.origins, extent.slopes(end, SLOPE_ERROR));
+        let Some(cone) = Cone::around(lanes, sixteens, &extent, self.first, end, cone::MARGINS)
+        else {
             return 0;
         };
         self.cone = cone;
@@ -257,7 +266,9 @@ impl Packet {
             }
             filtered += skipped + 1;
             let cost = near.count_ones() * Self::tests(self.alive);
-            if !self.pays(cost, self.alive.count_ones() * (skipped as u32 + 1) / RAYS_IN_A_TEST) {
+            #[expect(clippy::cast_possible_truncation, reason = "more would do as well")]
+            let blocks = skipped.min(RAYS) as u32 + 1;
+            if !self.pays(cost, self.alive.count_ones() * blocks / RAYS_IN_A_TEST) {
                 return;
             }
         }
@@ -319,11 +330,29 @@ fn reduce(mut numbers: [f32; LANES], choose: impl Fn(f32, f32) -> f32) -> f32 {
     numbers[0]
 }
 
-/// Where rays do not come from afar.
+/// What rays of a collection are asked together.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Around {
+    /// Where rays do not come from afar.
     pub(super) center: Vec3,
     pub(super) radius_squared: f32,
+    /// The squares of how far apart origins may be, and directions, in their lengths.
+    pub(super) neighbors: [f32; 2],
+}
+
+impl Around {
+    /// Whether most of a few pairs of rays are neighbors: those that have nothing in common are told before they cost anything.
+    fn are_neighbors<V: Vector>(&self, rays: &[Ray<V>]) -> bool {
+        let [apart, wide] = self.neighbors;
+        let step = rays.len() / PAIRS;
+        let others = rays.iter().skip(step / 2).step_by(step.max(1));
+        let strangers = rays.iter().step_by(step.max(1)).zip(others).filter(|(one, other)| {
+            let origins = narrow(one.origin - other.origin).length_squared();
+            let directions = narrow(one.direction - other.direction).length_squared();
+            origins > apart || directions > wide * narrow(one.direction).length_squared()
+        });
+        strangers.take(PAIRS).count() * 2 <= PAIRS
+    }
 }
 
 /// Finds the rays that single precision can compute with, as [`Segment::allows`](super::filter::Segment::allows) does, and that do
@@ -337,8 +366,9 @@ impl Vectorized for Allowed<'_> {
     type Output = Mask;
 
     #[inline(always)]
+    #[expect(clippy::needless_bitwise_bool, reason = "so that the loop has no branches")]
     fn run<I: Instructions>(self, instructions: I) -> Mask {
-        let Self { sixteens, around: Around { center, radius_squared } } = self;
+        let Self { sixteens, around: Around { center, radius_squared, .. } } = self;
         let mut allowed = 0;
         for (place, Sixteen { origin, direction, .. }) in sixteens.iter().enumerate() {
             let mut signs = [0.0; LANES];
@@ -434,10 +464,10 @@ impl Extent {
 
     /// The slopes of lines that bound all points up to the end of the range, from the least and the largest origin on: see
     /// [`SLOPE_ERROR`].
-    fn slopes(&self, end: f32) -> [Vec3; 2] {
+    fn slopes(&self, end: f32, error: f32) -> [Vec3; 2] {
         let Self { origins, directions: [low, high], ends } = *self;
         let Some(end) = self.end_in_reach(end) else { return [low, high] };
-        let error = (Self::largest(origins) + end * Self::largest([low, high])) * SLOPE_ERROR;
+        let error = (Self::largest(origins) + end * Self::largest([low, high])) * error;
         [
             low.max(((ends[0] - origins[0]) - error) / end),
             high.min(((ends[1] - origins[1]) + error) / end),

@@ -11,8 +11,9 @@
 //! on each axis: six bounds on t, each an upper or a lower one by the sign of its d.
 //!
 //! A component below 2 u D (D: the largest component of all directions) is replaced by that, downwards for d₀ and upwards for d₁, which takes
-//! nothing from the frustum. With r for 1 / d and L for the largest coordinate of all, as for one ray, an error of u r in a quotient, two
-//! products and two sums make 7 u L r, and what is left of the [`MARGIN`] of 12 u L r is more than the rounding of t.
+//! nothing from the frustum. With r for 1 / d and L for the largest coordinate of all, relative to the center of the region, as for one
+//! ray, an error of u r in a quotient, two products and two sums make 7 u L r, and the difference of an origin and the center, which is
+//! rounded, u L r. What is left of the [`MARGIN`](super::boxes) of 16 u L r is more than the rounding of t.
 //!
 //! **A box and 16 rays.** With c and h for the middle of a slab and half its width, a ray is in it between c r - p r ∓ h |r|. That does not depend on
 //! signs. With a component below 2 u D (of this ray) replaced by that, of the same sign:
@@ -23,10 +24,11 @@
 //! c r, p r, h r     a product each                                 3 u L r
 //! c r - p r         a sum                                          2 u L r
 //! that ∓ h r        a sum                                          3 u L r
+//! p                 less the center                                u L r
 //! the replaced                                                     4 u L r
 //! ```
 //!
-//! Together 17 u L r. The half-width is made larger by [`RAY_MARGIN`] L, 24 u L, which takes a rounding.
+//! Together 18 u L r. The half-width is made larger by [`RAY_MARGIN`] L, 24 u L, which takes a rounding.
 
 use glam::{Vec3, Vec4};
 
@@ -36,6 +38,9 @@ use crate::Vector;
 use crate::spheres::lanes::{Instructions, LANES, Vectorized};
 use crate::spheres::local::narrow;
 use crate::spheres::packet::{Mask, Packet, RAYS, Sixteen};
+
+#[cfg(test)]
+mod tests;
 
 /// By how much a box may be missed by a single ray, in L: 24 u. See the derivation above.
 const RAY_MARGIN: f32 = 12.0 * f32::EPSILON;

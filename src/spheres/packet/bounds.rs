@@ -10,7 +10,7 @@
 //! where e is 0 but for the rounding of m. So t is bounded by two spheres around the same center, one larger and one smaller:
 //!
 //! ```text
-//! m - √((R² - |w|²) / a) - E  ≤  t  ≤  m - √((S² - |w|²) / a) + E
+//! m - √((R² - |w|²) / a)  ≤  t  ≤  m - √((S² - |w|²) / a)
 //! R = r + reach,   S = r - reach
 //! ```
 //!
@@ -34,14 +34,17 @@
 //! (2² + 9²) u² (r + |m| |d|)²                                  of the second: of w, and e² a
 //! ```
 //!
-//! and S² smaller than r² by what is of the first order, where the second order makes t no later. The reach is
-//! [`RADIUS_MARGIN`] r + [`DISTANCE_MARGIN`] |m| |d|, 16 u r + 12 u |m| |d|: 2 r times that is enough for the first order, and its own
-//! square for the second. (S² is smaller by 2 r reach - reach², no less than r times it, where S is not negative.)
+//! and S² smaller than r² by what is of the first order, where the second order makes t no later: for that, a reach of
+//! 4 u r + 2 u |m| |d| is enough, with its own square for the second order.
 //!
-//! **E.** Half the chord, the root times 1 / |d|, is off by 14 u r / |d|: u for the root, u for the product, and 1 / |d| is too large by 12 u
-//! at most. m is off by 9 u |o| / |d|; the sum of both and that with E are off by 2 u |t|, and t is rounded, u |t|. With
-//! |o| / |d| ≤ |m| + r / |d| and |t| no more, together that is at most 12 u |m| + 26 u r / |d|. E is [`MARGIN`], 32 u, times |m| + R / |d|: what is
-//! left is more than its own rounding, and an ulp of t, so that the upper bound is also above the float above t.
+//! **The bounds of t.** Half the chord, the root times 1 / |d|, is off by 14 u r / |d|: u for the root, u for the product, and 1 / |d| is too
+//! large by 12 u at most. m is off by 9 u |o| / |d|; the sum of both is off by u |t|, and t is rounded, u |t|. With |o| / |d| ≤ |m| +
+//! r / |d| and |t| no more, together that is at most 11 u |m| + 25 u r / |d|, and an ulp of t, so that the upper bound is also above the
+//! float above t, makes 13 u |m| + 27 u r / |d|. What is added to R is added to half the chord, too, or more: the slope of √(R² - |w|²) in
+//! R is R / √(R² - |w|²), no less than 1.
+//!
+//! So the reach is [`RADIUS_MARGIN`] r + [`DISTANCE_MARGIN`] |m| |d|, 32 u r + 16 u |m| |d|. (S² is smaller by 2 r reach - reach², no less
+//! than r times it, where S is not negative.)
 //!
 //! **Overflow and underflow.** As for leaves, of which [`LEAST`] is added to the reach: a radius below that is never certain to be hit.
 
@@ -50,17 +53,25 @@ use crate::Sphere;
 use crate::float::sqrt_f32;
 use crate::spheres::lanes::{Instructions, LANES, Vectorized};
 
-/// By which part of itself a radius is made larger, and smaller: 16 u. See the derivation above.
-const RADIUS_MARGIN: f32 = 8.0 * f32::EPSILON;
+/// By which part of itself a radius is made larger, and smaller: 32 u. See the derivation above.
+const RADIUS_MARGIN: f32 = 16.0 * f32::EPSILON;
 
-/// By which part of the way to the closest approach besides: 12 u.
-const DISTANCE_MARGIN: f32 = 6.0 * f32::EPSILON;
-
-/// By which part of |m| + R / |d| the bounds of t are farther apart: 32 u.
-const MARGIN: f32 = 16.0 * f32::EPSILON;
+/// By which part of the way to the closest approach besides: 16 u.
+const DISTANCE_MARGIN: f32 = 8.0 * f32::EPSILON;
 
 /// By how much a radius is made larger, and smaller, at least: more than underflow can take from it.
 const LEAST: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
+
+/// All of these.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Margins {
+    pub(super) radius: f32,
+    pub(super) distance: f32,
+}
+
+impl Margins {
+    pub(super) const PROVEN: Self = Self { radius: RADIUS_MARGIN, distance: DISTANCE_MARGIN };
+}
 
 /// Asks which rays meet a sphere before the nearest so far.
 pub(in crate::spheres) struct Meet<'a> {
@@ -85,13 +96,21 @@ impl Vectorized for Meet<'_> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, instructions: I) -> Met {
+        self.run_with(instructions, Margins::PROVEN)
+    }
+}
+
+impl Meet<'_> {
+    #[inline(always)]
+    pub(super) fn run_with<I: Instructions>(self, instructions: I, margins: Margins) -> Met {
         let Self { packet, sphere, place, rays } = self;
         let first = packet.first;
         let mut met = Met::default();
         for (sixteen, number) in packet.sixteens[..packet.count].iter_mut().zip(0..) {
             let shift = number * LANES;
             if rays >> shift & 0xFFFF != 0 {
-                let (surely, doubtfully) = sixteen.meet(instructions, sphere, place, first);
+                let (surely, doubtfully) =
+                    sixteen.meet(instructions, sphere, place, first, margins);
                 met.surely |= Mask::from(surely) << shift;
                 met.doubtfully |= Mask::from(doubtfully) << shift;
             }
@@ -102,18 +121,20 @@ impl Vectorized for Meet<'_> {
 
 impl Sixteen {
     #[inline(always)]
+    #[expect(clippy::needless_bitwise_bool, reason = "so that the loop has no branches")]
     fn meet<I: Instructions>(
         &mut self,
         instructions: I,
         sphere: &Sphere,
         place: u32,
         first: f32,
+        margins: Margins,
     ) -> (u32, u32) {
         let Sphere { center, radius } = *sphere;
         let Self { origin: [origin_x, origin_y, origin_z], .. } = self;
         let Self { direction: [direction_x, direction_y, direction_z], .. } = self;
         let Self { one_over_a, length, .. } = self;
-        let least_reach = radius * RADIUS_MARGIN + LEAST;
+        let least_reach = radius * margins.radius + LEAST;
         let (mut closest, mut reaches) = ([0.0; LANES], [0.0; LANES]);
         let (mut squares, mut clearances) = ([0.0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
@@ -127,7 +148,7 @@ impl Sixteen {
             let y = instructions.multiply_add(-m, direction_y[lane], y);
             let z = instructions.multiply_add(-m, direction_z[lane], z);
             let reach =
-                instructions.multiply_add(m.abs() * DISTANCE_MARGIN, length[lane], least_reach);
+                instructions.multiply_add(m.abs() * margins.distance, length[lane], least_reach);
             let outer = radius + reach;
             closest[lane] = m;
             reaches[lane] = reach;
@@ -152,13 +173,11 @@ impl Sixteen {
             let inside = instructions.multiply_add(inner, inner, -squares[lane]);
             let inside = if inside > 0.0 { inside } else { f32::NAN };
             let least = sqrt_f32(inside) * one_over_length[lane];
-            let size = instructions.multiply_add(radius + reach, one_over_length[lane], m.abs());
-            let (earlier, later) = (m - size * MARGIN, m + size * MARGIN);
             // The far root, where the near one is certainly before the range.
-            let is_far = later - least < first;
-            let lower = if is_far { earlier + least } else { earlier - most };
-            let upper = if is_far { later + most } else { later - least };
-            let is_ahead = (later + most >= first) & (lower <= ends[lane]);
+            let is_far = m - least < first;
+            let lower = if is_far { m + least } else { m - most };
+            let upper = if is_far { m + most } else { m - least };
+            let is_ahead = (m + most >= first) & (lower <= ends[lane]);
             let is_sure = (lower >= first) & (upper < lowers[lane]) & (clearances[lane] < 0.0);
             surely[lane] = if is_sure { -1.0 } else { 1.0 };
             doubtfully[lane] = if is_ahead & !is_sure { -1.0 } else { 1.0 };

@@ -39,6 +39,9 @@ use crate::spheres::local::to_f32;
 /// By which part of itself R is made larger, and by which part of m |D| besides: 32 u. See the derivation above.
 const MARGIN: f64 = 16.0 * f32::EPSILON as f64;
 
+/// These two.
+pub(super) const MARGINS: [f64; 2] = [MARGIN; 2];
+
 /// What is added to every radius: more than underflow can take from it.
 const LEAST: f64 = f64::from_bits((1023 - 60) << 52); // 2^-60
 
@@ -80,6 +83,7 @@ impl Cone {
         extent: &Extent,
         first: f32,
         end: f32,
+        margins: [f64; 2],
     ) -> Option<Self> {
         let middle = |[low, high]: [Vec3; 2]| low * 0.5 + high * 0.5;
         let axis = [middle(extent.origins), middle(extent.directions)];
@@ -93,19 +97,19 @@ impl Cone {
         }
         let length = axis[1].as_dvec3().length();
         let k = spread / length;
-        if !(k.abs() <= WIDEST) {
+        if k.is_nan() || k.abs() > WIDEST {
             return None;
         }
         let factor = sqrt(1.0 - k * k).recip();
+        let (widening, [of_radius, of_distance]) = (spread * factor, margins);
         let over_a = DVec3::from(axis[1]) / (length * length);
         Some(Self {
             origin: axis[0],
             direction: axis[1],
             over_a: over_a.as_vec3(),
-            factor: (factor * (1.0 + MARGIN)) as f32,
-            base: (base * factor * (1.0 + MARGIN) + LEAST) as f32,
-            widening: ((spread * factor).max(spread * factor * (1.0 + MARGIN)) + length * MARGIN)
-                as f32,
+            factor: (factor * (1.0 + of_radius)) as f32,
+            base: (base * factor * (1.0 + of_radius) + LEAST) as f32,
+            widening: (widening.max(widening * (1.0 + of_radius)) + length * of_distance) as f32,
             first,
         })
     }

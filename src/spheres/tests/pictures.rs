@@ -1,6 +1,7 @@
 //! `nearest_each` and `occludes_each` against one ray at a time: the same bits, with every set of instructions.
 
 use super::*;
+use crate::spheres::each;
 
 /// Rays that begin and go nearly as one does, or, if `mixed`, some that do not.
 fn neighbors<V: Tested>(rng: &mut Rng, slice: &[Sphere<V>], count: u64) -> Vec<Ray<V>> {
@@ -104,4 +105,97 @@ fn many_equal_one_at_a_time_in_a_long_run_in_f32() {
 #[test]
 fn many_equal_one_at_a_time_in_a_long_run_in_f64() {
     many_equal_one_at_a_time_in_a_long_run::<DVec3>(2_000);
+}
+
+/// A scene of many spheres, and 64 neighboring pixels.
+fn tile(rng: &mut Rng, count: usize) -> (Scene<Vec3>, Vec<Ray>) {
+    let slice = (0..count).map(|_| sphere(rng.unit_vector() * rng.uniform(0.0, 30.0), 1.0));
+    let scene = Scene::new(slice.collect());
+    let eye = rng.unit_vector() * 60.0;
+    let [right, up] = [eye.cross(DVec3::Y), eye.cross(DVec3::X)].map(DVec3::normalize);
+    let corner = DVec3::from([(); 3].map(|()| rng.uniform(-15.0, 15.0))) - eye;
+    let pixel = |i: u8| right * f64::from(i % 8) * 0.2 + up * f64::from(i / 8) * 0.2;
+    let rays = (0..64).map(|i| ray(eye, corner + pixel(i))).collect();
+    (scene, rays)
+}
+
+#[test]
+fn neighbors_are_asked_together() {
+    let mut rng = Rng::new(11);
+    for count in [20, 70, 300, 2000] {
+        let mut together = [0; 2];
+        for _ in 0..10 {
+            let (scene, rays) = tile(&mut rng, count);
+            for lanes in Lanes::available() {
+                let _ = each::tests::together();
+                scene.scan.nearest_each_in_lanes(lanes, &rays, &all::<Vec3>(), &mut [None; 64]);
+                scene.scan.occludes_each_in_lanes(lanes, &rays, &all::<Vec3>(), &mut [false; 64]);
+                together[0] += each::tests::together();
+                scene.bvh.nearest_each_in_lanes(lanes, &rays, &all::<Vec3>(), &mut [None; 64]);
+                scene.bvh.occludes_each_in_lanes(lanes, &rays, &all::<Vec3>(), &mut [false; 64]);
+                together[1] += each::tests::together();
+            }
+            scene.assert_same_for_each(&rays, &all::<Vec3>());
+        }
+        let asked = 10 * 128 * u32::try_from(Lanes::available().count()).unwrap_or(0);
+        assert!(together.iter().all(|&together| together > asked / 4 * 3), "{together:?}, {count}");
+    }
+}
+
+#[test]
+fn rays_that_are_none_among_neighbors() {
+    let mut rng = Rng::new(12);
+    let mut together = 0;
+    for _ in 0..20 {
+        let (scene, mut rays) = tile(&mut rng, 300);
+        for _ in 0..choose(&mut rng, &[1, 5, 30]) {
+            let place = choose(&mut rng, &[0, 1, 7, 16, 17, 31, 40, 63]);
+            let axis = choose(&mut rng, &[0, 1, 2]);
+            let number = choose(&mut rng, &[f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX]);
+            match rng.below(3) {
+                0 => rays[place].origin[axis] = number,
+                1 => rays[place].direction[axis] = number,
+                _ => rays[place].direction = Vec3::ZERO,
+            }
+        }
+        let _ = each::tests::together();
+        scene.bvh.nearest_each(&rays, all::<Vec3>(), &mut [None; 64]);
+        together += each::tests::together();
+        scene.assert_same_for_each(&rays, &all::<Vec3>());
+        for range in [f32::NAN..1.0, 0.0..f32::NAN, 60.0..f32::INFINITY, 61.0..30.0, -5.0..0.9] {
+            scene.assert_same_for_each(&rays, &range);
+        }
+    }
+    assert!(together > 20 * 40, "the others go together: {together}");
+}
+
+#[test]
+fn of_slices_that_differ_in_length_the_shorter_one_counts() {
+    let mut rng = Rng::new(13);
+    let (scene, rays) = tile(&mut rng, 300);
+    let old = Some((7, Hit::new(1.0, Vec3::ONE, Vec3::ONE, 0.0)));
+    for [count, room] in [[0, 0], [0, 5], [5, 0], [3, 64], [64, 3], [17, 64], [64, 63], [40, 41]] {
+        let (rays, asked) = (&rays[..count], count.min(room));
+        for find in [
+            &|found: &mut [_]| scene.scan.nearest_each(rays, all::<Vec3>(), found),
+            &|found: &mut [_]| scene.bvh.nearest_each(rays, all::<Vec3>(), found),
+        ] as [&dyn Fn(&mut [Option<(usize, Hit)>]); 2]
+        {
+            let mut found = std::vec![old; room];
+            find(&mut found);
+            for (found, ray) in found.iter().zip(rays) {
+                assert_eq!(bits(*found), bits(scene.bvh.nearest(ray, all::<Vec3>())));
+            }
+            assert!(found[asked..].iter().all(|&left| bits(left) == bits(old)));
+        }
+        for value in [false, true] {
+            let mut occluded = std::vec![value; room];
+            scene.bvh.occludes_each(rays, all::<Vec3>(), &mut occluded);
+            scene.scan.occludes_each(rays, all::<Vec3>(), &mut occluded);
+            for (occluded, ray) in occluded.iter().zip(rays) {
+                assert_eq!(*occluded, scene.bvh.occludes(ray, all::<Vec3>()));
+            }
+            assert!(occluded[asked..].iter().all(|&left| left == value));
+        }
+    }
 }
