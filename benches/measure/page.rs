@@ -10,7 +10,7 @@ use super::conditions;
 
 /// The programs in the order of interest.
 const PROGRAMS: [&str; 6] =
-    ["speed_vs_error", "sphere_scenes", "sphere_slices", "spheres", "crossings", "throughput"];
+    ["speed_vs_error", "sphere_slices", "spheres", "sphere_scenes", "crossings", "throughput"];
 
 /// The file of a program's part.
 const PART: &str = "page.md";

@@ -5,13 +5,16 @@
 //! cargo bench --manifest-path benches/peers/Cargo.toml --bench many_spheres -- --seed 7 chain   # other numbers, one scene
 //! ```
 //!
-//! Half of the rays are eye rays, half bounce off what those meet. Without Debian's libembree-dev, Embree is skipped. With `RUSTFLAGS='--cfg eyeray_lanes="avx2"'` eyeray does
+//! Half of the rays are eye rays, half bounce off what those meet. A second table has the rays of a picture, and takes many at a time.
+//! Without Debian's libembree-dev, Embree is skipped. With `RUSTFLAGS='--cfg eyeray_lanes="avx2"'` eyeray does
 //! without AVX-512, and with `"compiled"` without AVX2 too. Embree chooses for itself: in Debian's build, up to AVX2.
 #![allow(missing_docs, reason = "a benchmark")]
 
 #[allow(dead_code, reason = "the example's")]
 #[path = "../../examples/many_spheres/src/obvhs.rs"]
 mod by_obvhs;
+#[path = "many_spheres/pictures.rs"]
+mod pictures;
 #[path = "many_spheres/scenes.rs"]
 mod scenes;
 
@@ -105,6 +108,19 @@ fn main() {
     for scene in SCENES.iter().filter(|scene| scene.name.contains(&arguments.only)) {
         row(scene, &arguments);
     }
+    pictures::print_head();
+    for scene in SCENES.iter().filter(|scene| scene.name.contains(&arguments.only)) {
+        let spheres = (scene.spheres)(arguments.seed);
+        let hierarchy = spheres.iter().collect();
+        let embree = embree::Device::new().and_then(|device| device.build(&numbers(&spheres)));
+        pictures::print_row(scene.name, &spheres, &hierarchy, embree.as_ref(), arguments.rounds);
+    }
+}
+
+/// x, y, z and radius of each.
+fn numbers(spheres: &[Sphere]) -> Vec<[f32; 4]> {
+    let numbers = |&Sphere { center, radius }: &Sphere| [center.x, center.y, center.z, radius];
+    spheres.iter().map(numbers).collect()
 }
 
 #[expect(clippy::cast_precision_loss, reason = "counts are small")]
@@ -113,10 +129,7 @@ fn row(scene: &Scene, arguments: &Arguments) {
     let collected: Spheres = spheres.iter().copied().collect();
     let (hierarchy, mut build) = milliseconds(|| spheres.iter().copied().collect::<SphereBvh>());
     let (obvhs, _) = milliseconds(|| Hierarchy::new(&spheres));
-    let numbers: Vec<[f32; 4]> = spheres
-        .iter()
-        .map(|&Sphere { center, radius }| [center.x, center.y, center.z, radius])
-        .collect();
+    let numbers = numbers(&spheres);
     let by_embree = || embree::Device::new().map(|device| milliseconds(|| device.build(&numbers)));
     let (embree, mut embree_build) = match by_embree() {
         Some((Some(scene), time)) => (Some(scene), time),

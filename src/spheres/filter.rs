@@ -48,7 +48,7 @@ const COORDINATE_MARGIN: f64 = 1.5 * f32::EPSILON as f64;
 pub(super) const LARGEST: f32 = f32::from_bits((127 + 60) << 23); // 2^60
 
 /// The least square of a direction's length that it computes with.
-const LEAST_SQUARE: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
+pub(super) const LEAST_SQUARE: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
 
 /// What the filter knows of 16 spheres.
 ///
@@ -100,6 +100,13 @@ impl Block {
     /// Takes the sphere out of a lane: it is dropped from now on.
     pub(crate) fn clear(&mut self, lane: usize) {
         self.negative_radius_squared[lane] = f32::INFINITY;
+    }
+
+    /// The coordinates of the centers, and -r², made larger: infinite for a sphere that is always dropped, negative infinite for
+    /// one that passes always.
+    #[inline(always)]
+    pub(super) fn numbers(&self) -> [&[f32; LANES]; 4] {
+        [&self.x, &self.y, &self.z, &self.negative_radius_squared]
     }
 
     /// The spheres that the ray may hit from the segment's start to `end`, a bit for each.

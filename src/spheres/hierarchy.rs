@@ -3,8 +3,10 @@
 pub(super) mod bounds;
 mod boxes;
 mod build;
+mod frustum;
 mod hits;
 mod leaf;
+mod packet;
 mod refit;
 mod region;
 mod split;
@@ -70,10 +72,10 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// assert_eq!(found.map(|(index, hit)| (index, hit.t)), Some((7 * 300 + 12, 9.75)));
 /// ```
 #[derive(Clone)]
-pub struct SphereBvh<V: Vector = Vec3>(Shape<V>);
+pub struct SphereBvh<V: Vector = Vec3>(pub(super) Shape<V>);
 
 #[derive(Clone)]
-enum Shape<V: Vector> {
+pub(super) enum Shape<V: Vector> {
     /// So few that a scan is faster; or more than an index of 32 bits can tell apart.
     Scan(Spheres<V>),
     Tree(Tree<V>),
@@ -82,7 +84,7 @@ enum Shape<V: Vector> {
 /// The spheres in leaves of up to 16, and the leaves in boxes, up to 16 to a node. The children of a node lie together: first its
 /// leaves among all leaves, then its nodes among all nodes.
 #[derive(Clone, Debug)]
-struct Tree<V: Vector> {
+pub(super) struct Tree<V: Vector> {
     leaves: Vec<Leaf<V::Scalar>>,
     nodes: Vec<Boxes>,
     /// The whole tree, where a ray begins, and the parts of it that have coordinates of their own. There are none without

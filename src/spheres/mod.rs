@@ -2,12 +2,14 @@
 //! routine for the few that pass. [`scan`] tests all, [`hierarchy`] those in the boxes along the ray.
 
 mod crossings;
+mod each;
 mod filter;
 mod hierarchy;
 mod hits;
 mod lanes;
 mod local;
 mod middle;
+mod packet;
 mod queue;
 mod scan;
 #[cfg(feature = "serde")]

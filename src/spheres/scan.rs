@@ -64,11 +64,11 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 #[derive(Clone, Default)]
 #[expect(clippy::struct_field_names, reason = "the spheres are spheres")]
 pub struct Spheres<V: Vector = Vec3> {
-    spheres: Vec<Sphere<V>>,
+    pub(super) spheres: Vec<Sphere<V>>,
     /// The same spheres as the filter needs them.
-    blocks: Vec<Block>,
+    pub(super) blocks: Vec<Block>,
     /// Where they are.
-    middle: Middle<V>,
+    pub(super) middle: Middle<V>,
     /// So many more changes, and where they are is found anew.
     changes_left: usize,
 }
@@ -433,7 +433,7 @@ impl<V: Vector> Spheres<V> {
 }
 
 /// The places of the bits of a word, ascending.
-struct Bits(u64);
+pub(super) struct Bits(pub(super) u64);
 
 impl Iterator for Bits {
     type Item = usize;

@@ -16,6 +16,7 @@ use crate::{Hit, Hittable, Ray, Scalar, Sphere, Vector, nearest};
 )]
 #[path = "../../tests/support/families.rs"]
 pub(super) mod families;
+mod pictures;
 
 use families::{FAMILIES, Family, Rng};
 

@@ -83,3 +83,57 @@ int spheres_occluded(const struct spheres *spheres, const float *origin, const f
     rtcOccluded1(spheres->scene, &context, &ray);
     return ray.tfar < 0;
 }
+
+// 16 rays at a time, which lie together: `numbers` are their origins' x, y and z and their directions', 16 of each.
+// `found` has the indices of the spheres that are met first, or UINT_MAX, and `t` where.
+void spheres_nearest_16(const struct spheres *spheres, const float *numbers, unsigned *found, float *t) {
+    static const int valid[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    struct RTCRayHit16 rays;
+    memcpy(rays.ray.org_x, numbers, 16 * sizeof(float));
+    memcpy(rays.ray.org_y, numbers + 16, 16 * sizeof(float));
+    memcpy(rays.ray.org_z, numbers + 32, 16 * sizeof(float));
+    memcpy(rays.ray.dir_x, numbers + 48, 16 * sizeof(float));
+    memcpy(rays.ray.dir_y, numbers + 64, 16 * sizeof(float));
+    memcpy(rays.ray.dir_z, numbers + 80, 16 * sizeof(float));
+    for (int i = 0; i < 16; i++) {
+        rays.ray.tnear[i] = 0;
+        rays.ray.time[i] = 0;
+        rays.ray.tfar[i] = t[i];
+        rays.ray.mask[i] = -1;
+        rays.ray.id[i] = 0;
+        rays.ray.flags[i] = 0;
+        rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        rays.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect16(valid, spheres->scene, &context, &rays);
+    memcpy(found, rays.hit.primID, 16 * sizeof(unsigned));
+    memcpy(t, rays.ray.tfar, 16 * sizeof(float));
+}
+
+// Likewise, whether any sphere is met before `t`, which is negative where one is.
+void spheres_occluded_16(const struct spheres *spheres, const float *numbers, float *t) {
+    static const int valid[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+    struct RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    struct RTCRay16 rays;
+    memcpy(rays.org_x, numbers, 16 * sizeof(float));
+    memcpy(rays.org_y, numbers + 16, 16 * sizeof(float));
+    memcpy(rays.org_z, numbers + 32, 16 * sizeof(float));
+    memcpy(rays.dir_x, numbers + 48, 16 * sizeof(float));
+    memcpy(rays.dir_y, numbers + 64, 16 * sizeof(float));
+    memcpy(rays.dir_z, numbers + 80, 16 * sizeof(float));
+    for (int i = 0; i < 16; i++) {
+        rays.tnear[i] = 0;
+        rays.time[i] = 0;
+        rays.tfar[i] = t[i];
+        rays.mask[i] = -1;
+        rays.id[i] = 0;
+        rays.flags[i] = 0;
+    }
+    rtcOccluded16(valid, spheres->scene, &context, &rays);
+    memcpy(t, rays.tfar, 16 * sizeof(float));
+}

@@ -159,10 +159,8 @@ fn shell(seed: u64) -> Vec<Sphere> {
         .collect()
 }
 
-/// Eye rays and bounce rays, in turns.
-pub fn rays(spheres: &[Sphere], hierarchy: &SphereBvh, count: usize, seed: u64) -> Vec<Ray> {
-    let mut random = Random::new(seed + 1000);
-    // Nine in ten of the centers, so that a ground does not count.
+/// The least and the largest coordinates of nine in ten of the centers, so that a ground does not count.
+pub fn extent(spheres: &[Sphere]) -> [Vec3; 2] {
     let mut low = [0.0; 3];
     let mut high = [0.0; 3];
     for axis in 0..3 {
@@ -172,7 +170,13 @@ pub fn rays(spheres: &[Sphere], hierarchy: &SphereBvh, count: usize, seed: u64) 
         (low[axis], high[axis]) =
             (coordinates[outside], coordinates[coordinates.len() - 1 - outside]);
     }
-    let (low, high) = (Vec3::from(low), Vec3::from(high));
+    [low.into(), high.into()]
+}
+
+/// Eye rays and bounce rays, in turns.
+pub fn rays(spheres: &[Sphere], hierarchy: &SphereBvh, count: usize, seed: u64) -> Vec<Ray> {
+    let mut random = Random::new(seed + 1000);
+    let [low, high] = extent(spheres);
     let (middle, extent) = (low.midpoint(high), high - low);
     let mut bounced = Vec::new();
     let mut eye = Vec::new();

@@ -1,6 +1,6 @@
 use super::*;
 use crate::arithmetic::pair::{QUOTIENT_ERROR, ROOT_ERROR, SUM_ERROR};
-use crate::testing::{Dyadic, Random, exactly, part_of_bound};
+use crate::testing::{Dyadic, Random, exactly, nearest, part_of_bound};
 
 fn number(wide: Wide) -> Dyadic {
     exactly(wide.value).scaled(wide.exponent.into())
@@ -90,4 +90,25 @@ fn wide_zero_is_zero() {
     assert!((zero / one).is_zero() && (one + -one).is_zero());
     assert_eq!(number(one + zero), Dyadic::new(1, 0));
     assert_eq!(number(zero + one), Dyadic::new(1, 0));
+    assert_eq!(zero.to_f64(), 0.0);
+}
+
+#[test]
+fn wide_numbers_round_to_f64_once_where_normal() {
+    let mut random = Random::new(5);
+    for _ in 0..2000 {
+        let mut wide = random_wide(&mut random);
+        if wide.is_zero() {
+            continue;
+        }
+        wide.exponent = random.integer(-1100..=1030);
+        let (rounded, exact) = (wide.to_f64(), number(wide));
+        if rounded.is_normal() || rounded.is_infinite() {
+            assert_eq!(rounded, nearest(&exact, rounded), "{wide:?}");
+        } else {
+            // Rounded twice: by half a unit in the last place, and before that by very little.
+            let error = (&Dyadic::exactly(rounded) - &exact).abs();
+            assert!(error <= Dyadic::new((1_u64 << 40) + 1, -1075 - 40), "{wide:?}");
+        }
+    }
 }

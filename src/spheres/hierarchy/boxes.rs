@@ -48,7 +48,7 @@ use crate::spheres::lanes::{Instructions, LANES};
 pub(super) const MARGIN: f32 = 8.0 * f32::EPSILON;
 
 /// The least component of a direction, in the largest one: 2 u.
-const LEAST_COMPONENT: f32 = f32::EPSILON;
+pub(super) const LEAST_COMPONENT: f32 = f32::EPSILON;
 
 /// What L is taken for if it is less.
 pub(super) const LEAST_COORDINATE: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
@@ -108,6 +108,12 @@ impl Boxes {
         for (axis, [lows, highs]) in self.planes.iter_mut().enumerate() {
             (lows[lane], highs[lane]) = (low[axis], high[axis]);
         }
+    }
+
+    /// The low and the high planes, by axis.
+    #[inline(always)]
+    pub(super) fn planes(&self) -> &[[[f32; LANES]; 2]; 3] {
+        &self.planes
     }
 
     /// The box of a lane.

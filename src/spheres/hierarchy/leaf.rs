@@ -111,6 +111,13 @@ impl<S: Scalar> Leaf<S> {
         Sphere::new(V::from_f64(DVec3::new(x, y, z)), self.radius[lane])
     }
 
+    /// The coordinates of the centers, and the radii.
+    #[inline(always)]
+    pub(super) fn numbers(&self) -> [&[S; LANES]; 4] {
+        let [x, y, z] = &self.center;
+        [x, y, z, &self.radius]
+    }
+
     /// Its place in the order in which the spheres were given.
     #[inline(always)]
     pub(super) fn index(&self, lane: usize) -> u32 {

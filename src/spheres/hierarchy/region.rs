@@ -27,7 +27,7 @@ use crate::{Ray, Vector};
 
 /// From how many extents on a ray comes from afar. Up to there, the errors of the boxes are less than a ten-thousandth of the
 /// extent.
-const FAR: f32 = 64.0;
+pub(super) const FAR: f32 = 64.0;
 
 /// The square of what the closest approach may be off by, in that of the origin's distance.
 const OF_DISTANCE: f64 = f64::from_bits((1023 - 80) << 52); // 2^-80

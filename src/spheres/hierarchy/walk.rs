@@ -22,26 +22,26 @@ use crate::spheres::local::{above, local_end, local_start, narrow, to_f32};
 use crate::{Hit, Hittable, Ray, Scalar, Sphere, Vector};
 
 /// How much waits to be visited at most: of each node on the way to a leaf, all children but one, and of each region the way out.
-const MOST_WAITING: usize = DEEPEST * (LANES - 1) + MOST_NESTED;
+pub(super) const MOST_WAITING: usize = DEEPEST * (LANES - 1) + MOST_NESTED;
 
 /// A node or a leaf that waits, and where the ray enters its box: the bits of that distance, which is not negative, are above
 /// those of what it is. So the nearer has the lower key.
-type Key = u64;
+pub(super) type Key = u64;
 
 #[inline(always)]
-fn key(entry: f32, child: u32) -> Key {
+pub(super) fn key(entry: f32, child: u32) -> Key {
     u64::from(entry.to_bits()) << 32 | u64::from(child)
 }
 
 /// Where the ray enters the box.
 #[inline(always)]
-fn entry(key: Key) -> f32 {
+pub(super) fn entry(key: Key) -> f32 {
     f32::from_bits((key >> 32) as u32)
 }
 
 /// What it is.
 #[inline(always)]
-fn child(key: Key) -> u32 {
+pub(super) fn child(key: Key) -> u32 {
     #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
     let child = key as u32;
     child

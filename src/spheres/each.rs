@@ -1,0 +1,423 @@
+//! Many rays at once, for [`Spheres`] and [`SphereBvh`]: `nearest_each` and `occludes_each`.
+
+use core::ops::Range;
+
+use super::filter::is_in_reach;
+use super::hierarchy::Shape;
+use super::lanes::Lanes;
+use super::local::{above, narrow, to_f32};
+use super::middle::Middle;
+use super::packet::bounds::{Meet, Met};
+use super::packet::{Around, Mask, Packet, Question, RAYS};
+use super::scan::Bits;
+use super::{SphereBvh, Spheres};
+use crate::root::order::is_nearer;
+use crate::{Hit, Hittable, Ray, Sphere, Vector};
+
+/// What is found for each ray: which sphere, and where.
+type Found<V> = Option<(usize, Hit<V>)>;
+
+/// Which sphere each ray of a packet meets first.
+struct Nearest<'a, V: Vector, C> {
+    collection: &'a C,
+    rays: &'a [Ray<V>],
+    range: &'a Range<V::Scalar>,
+    found: &'a mut [Found<V>],
+}
+
+impl<V: Vector, C: Collection<V>> Nearest<'_, V, C> {
+    /// Asks a ray exactly whether it meets the sphere at that place first.
+    fn ask_exactly(&mut self, ray_place: usize, place: u32) {
+        let Self { collection, rays, range, found } = self;
+        let (Some(ray), Some(found), Some((index, sphere))) =
+            (rays.get(ray_place), found.get_mut(ray_place), collection.member(place))
+        else {
+            return;
+        };
+        if let Some(hit) = sphere.intersect(ray, range.clone()) {
+            let is_first = found.is_none_or(|(other, nearest)| {
+                let spheres = || [Some(sphere), collection.sphere(other)];
+                is_nearer(ray, (index, hit.t), (other, nearest.t), spheres)
+            });
+            if is_first {
+                *found = Some((index, hit));
+            }
+        }
+    }
+
+    /// Asks all rays exactly whose nearest sphere is known.
+    fn finish(&mut self, packet: &Packet) {
+        for ray_place in Bits(packet.alive) {
+            if let Some(place) = packet.nearest(ray_place) {
+                // It is certainly nearer than what was found before.
+                let Self { collection, rays, range, found } = self;
+                let (Some(ray), Some(found), Some((index, sphere))) =
+                    (rays.get(ray_place), found.get_mut(ray_place), collection.member(place))
+                else {
+                    continue;
+                };
+                *found = sphere.intersect(ray, Range::clone(range)).map(|hit| (index, hit));
+            }
+        }
+    }
+}
+
+impl<V: Vector, C: Collection<V>> Question<V> for Nearest<'_, V, C> {
+    fn ask(
+        &mut self,
+        packet: &mut Packet,
+        lanes: Lanes,
+        rays: Mask,
+        sphere: &Sphere<V>,
+        place: u32,
+    ) {
+        // Where the bounds overlap, what was known so far is needed after it.
+        let doubtfully = meet(packet, lanes, rays, sphere, place).doubtfully;
+        for ray_place in Bits(doubtfully) {
+            if let Some(nearest) = packet.nearest(ray_place) {
+                // It was certainly nearer than what was found before.
+                if let Some(found) = self.found.get_mut(ray_place) {
+                    *found = None;
+                }
+                self.ask_exactly(ray_place, nearest);
+            }
+            self.ask_exactly(ray_place, place);
+            if let Some(Some((_, hit))) = self.found.get(ray_place) {
+                packet.set_nearest(ray_place, to_f32(hit.t), to_f32(above::<V>(hit.t)));
+            }
+        }
+    }
+}
+
+/// Which rays of a packet meet any sphere.
+struct Occluded<'a, V: Vector> {
+    rays: &'a [Ray<V>],
+    range: &'a Range<V::Scalar>,
+    answers: &'a mut [bool],
+}
+
+impl<V: Vector> Question<V> for Occluded<'_, V> {
+    fn ask(
+        &mut self,
+        packet: &mut Packet,
+        lanes: Lanes,
+        rays: Mask,
+        sphere: &Sphere<V>,
+        place: u32,
+    ) {
+        let Met { mut surely, doubtfully } = meet(packet, lanes, rays, sphere, place);
+        for ray_place in Bits(doubtfully) {
+            let is_met = |ray| sphere.occludes(ray, self.range.clone());
+            surely |= Mask::from(self.rays.get(ray_place).is_some_and(is_met)) << ray_place;
+        }
+        for ray_place in Bits(surely) {
+            packet.drop_ray(ray_place);
+            if let Some(is_occluded) = self.answers.get_mut(ray_place) {
+                *is_occluded = true;
+            }
+        }
+    }
+}
+
+/// What is known of the rays that meet a sphere: nothing of one that is too large.
+fn meet<V: Vector>(
+    packet: &mut Packet,
+    lanes: Lanes,
+    rays: Mask,
+    sphere: &Sphere<V>,
+    place: u32,
+) -> Met {
+    if !is_in_reach(sphere) {
+        return Met { surely: 0, doubtfully: rays };
+    }
+    let sphere = &Sphere::new(narrow(sphere.center), to_f32(sphere.radius));
+    lanes.run(Meet { packet, sphere, place, rays })
+}
+
+/// A collection that packets can be asked of.
+pub(super) trait Collection<V: Vector> {
+    /// Where rays are asked together.
+    fn around(&self) -> Around;
+
+    /// Asks all spheres that a ray of the packet may be the first to meet. Rays that share too little of their way are left alone.
+    fn ask<Q: Question<V>>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q);
+
+    /// The sphere at an index.
+    fn sphere(&self, index: usize) -> Option<Sphere<V>>;
+
+    /// The sphere at one of the places that a question is asked with, and its index.
+    fn member(&self, place: u32) -> Option<(usize, Sphere<V>)>;
+
+    /// Asks a single ray.
+    fn nearest_alone(&self, lanes: Lanes, ray: &Ray<V>, range: Range<V::Scalar>) -> Found<V>;
+
+    /// Asks a single ray.
+    fn occludes_alone(&self, lanes: Lanes, ray: &Ray<V>, range: Range<V::Scalar>) -> bool;
+}
+
+/// Whether rays are asked together: the bounds of t are those of numbers in `f32`.
+const fn is_single<V: Vector>() -> bool {
+    size_of::<V::Scalar>() == size_of::<f32>()
+}
+
+/// Finds the nearest hit of each ray.
+fn nearest_each<V: Vector>(
+    collection: &impl Collection<V>,
+    lanes: Lanes,
+    rays: &[Ray<V>],
+    range: &Range<V::Scalar>,
+    found: &mut [Found<V>],
+) {
+    let mut packet = Packet::EMPTY;
+    for (rays, found) in pairs(rays, found) {
+        let mut asked = 0;
+        if is_single::<V>() {
+            asked = packet.load(lanes, rays, range, collection.around());
+        }
+        if asked != 0 {
+            found.fill(None);
+            let mut question = Nearest { collection, rays, range, found: &mut *found };
+            collection.ask(lanes, &mut packet, &mut question);
+            question.finish(&packet);
+            asked &= !packet.alone;
+            #[cfg(test)]
+            tests::count(asked);
+        }
+        for ((place, ray), found) in rays.iter().enumerate().zip(found) {
+            if asked >> place & 1 == 0 {
+                *found = collection.nearest_alone(lanes, ray, range.clone());
+            }
+        }
+    }
+}
+
+/// Finds whether each ray hits anything.
+fn occludes_each<V: Vector>(
+    collection: &impl Collection<V>,
+    lanes: Lanes,
+    rays: &[Ray<V>],
+    range: &Range<V::Scalar>,
+    occluded: &mut [bool],
+) {
+    let mut packet = Packet::EMPTY;
+    for (rays, occluded) in pairs(rays, occluded) {
+        let mut asked = 0;
+        if is_single::<V>() {
+            asked = packet.load(lanes, rays, range, collection.around());
+        }
+        if asked != 0 {
+            occluded.fill(false);
+            let mut question = Occluded { rays, range, answers: &mut *occluded };
+            collection.ask(lanes, &mut packet, &mut question);
+            asked &= !packet.alone;
+            #[cfg(test)]
+            tests::count(asked);
+        }
+        for ((place, ray), occluded) in rays.iter().enumerate().zip(occluded) {
+            if asked >> place & 1 == 0 {
+                *occluded = collection.occludes_alone(lanes, ray, range.clone());
+            }
+        }
+    }
+}
+
+/// The rays of each packet, and what is found for them: as many as there are of both.
+fn pairs<'a, V: Vector, T>(
+    rays: &'a [Ray<V>],
+    found: &'a mut [T],
+) -> impl Iterator<Item = (&'a [Ray<V>], &'a mut [T])> {
+    let count = rays.len().min(found.len());
+    rays[..count].chunks(RAYS).zip(found[..count].chunks_mut(RAYS))
+}
+
+impl<V: Vector> Collection<V> for Spheres<V> {
+    fn around(&self) -> Around {
+        let Middle { center, extent, near_squared } = self.middle;
+        Around {
+            center: narrow(center),
+            radius_squared: near_squared,
+            neighbors: [extent * extent, 1.0],
+        }
+    }
+
+    fn ask<Q: Question<V>>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) {
+        packet.scan(lanes, self, 0, question);
+    }
+
+    fn sphere(&self, index: usize) -> Option<Sphere<V>> {
+        self.get(index)
+    }
+
+    fn member(&self, place: u32) -> Option<(usize, Sphere<V>)> {
+        Some((place as usize, self.get(place as usize)?))
+    }
+
+    fn nearest_alone(&self, lanes: Lanes, ray: &Ray<V>, range: Range<V::Scalar>) -> Found<V> {
+        self.nearest_in_lanes(lanes, ray, range)
+    }
+
+    fn occludes_alone(&self, lanes: Lanes, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
+        self.occludes_in_lanes(lanes, ray, range)
+    }
+}
+
+impl<V: Vector> Spheres<V> {
+    /// Finds the nearest hit of each ray with `t` in `range`, and the index of its sphere: writes what [`nearest`](Self::nearest)
+    /// returns for `rays[i]` to `found[i]`, bit for bit.
+    ///
+    /// This takes less time than to ask one by one where rays that lie together follow each other, as those of the pixels of a small
+    /// square do: give as many at once as there are, best in groups of 64, and of 16 in these. Any rays in any order are allowed;
+    /// those that share nothing take about as long as one by one, and so do all in `f64`.
+    ///
+    /// If the slices differ in length, the shorter one counts: rays without a place in `found` are not asked, and places in `found`
+    /// without a ray are left as they are.
+    ///
+    /// Nothing is allocated.
+    ///
+    /// ```
+    /// use eyeray::{Camera, Sphere, Spheres};
+    /// use glam::{Vec3, vec2};
+    ///
+    /// # fn main() -> Result<(), eyeray::CameraError> {
+    /// let (eye, target) = (Vec3::Z * 5.0, Vec3::ZERO);
+    /// let camera = Camera::perspective_fov(eye, target, Vec3::Y, 1.0, 1.0)?;
+    /// let spheres: Spheres = [Sphere::new(target, 1.0)].into_iter().collect();
+    ///
+    /// // A square of 8 by 8 pixels around the middle of a picture of 640 by 640.
+    /// let pixel = |i: u8| vec2(316.5 + f32::from(i % 8), 316.5 + f32::from(i / 8));
+    /// let rays: Vec<_> = (0..64).map(|i| camera.pixel_ray(pixel(i), 640, 640)).collect();
+    /// let mut found = [None; 64];
+    /// spheres.nearest_each(&rays, 0.0..f32::INFINITY, &mut found);
+    /// assert_eq!(found[27], spheres.nearest(&rays[27], 0.0..f32::INFINITY));
+    /// assert!(found.iter().all(|found| found.is_some_and(|(index, _)| index == 0)));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn nearest_each(&self, rays: &[Ray<V>], range: Range<V::Scalar>, found: &mut [Found<V>]) {
+        self.nearest_each_in_lanes(Lanes::best(), rays, &range, found);
+    }
+
+    /// Finds for each ray whether it hits any sphere with `t` in `range`, for shadow rays: writes what
+    /// [`occludes`](crate::Hittable::occludes) returns for `rays[i]` to `occluded[i]`.
+    ///
+    /// What [`nearest_each`](Self::nearest_each) says of the order of rays and of slices that differ in length holds here, too. All
+    /// rays share the range: give the shadow rays to a lamp directions that end there, and `0.0..1.0`.
+    pub fn occludes_each(&self, rays: &[Ray<V>], range: Range<V::Scalar>, occluded: &mut [bool]) {
+        self.occludes_each_in_lanes(Lanes::best(), rays, &range, occluded);
+    }
+
+    /// [`nearest_each`](Self::nearest_each) with that set of instructions.
+    pub(super) fn nearest_each_in_lanes(
+        &self,
+        lanes: Lanes,
+        rays: &[Ray<V>],
+        range: &Range<V::Scalar>,
+        found: &mut [Found<V>],
+    ) {
+        nearest_each(self, lanes, rays, range, found);
+    }
+
+    /// [`occludes_each`](Self::occludes_each) with that set of instructions.
+    pub(super) fn occludes_each_in_lanes(
+        &self,
+        lanes: Lanes,
+        rays: &[Ray<V>],
+        range: &Range<V::Scalar>,
+        occluded: &mut [bool],
+    ) {
+        occludes_each(self, lanes, rays, range, occluded);
+    }
+}
+
+impl<V: Vector> SphereBvh<V> {
+    /// Finds the nearest hit of each ray with `t` in `range`, and the index of its sphere: writes what [`nearest`](Self::nearest)
+    /// returns for `rays[i]` to `found[i]`, bit for bit.
+    ///
+    /// This takes less time than to ask one by one where rays that lie together follow each other, as those of the pixels of a small
+    /// square do: give as many at once as there are, best in groups of 64, and of 16 in these. Any rays in any order are allowed;
+    /// those that share nothing take about as long as one by one, and so do all in `f64`.
+    ///
+    /// If the slices differ in length, the shorter one counts: rays without a place in `found` are not asked, and places in `found`
+    /// without a ray are left as they are.
+    ///
+    /// Nothing is allocated.
+    ///
+    /// ```
+    /// use eyeray::{Camera, Sphere, SphereBvh};
+    /// use glam::{Vec3, vec2};
+    ///
+    /// # fn main() -> Result<(), eyeray::CameraError> {
+    /// let (eye, target) = (Vec3::Z * 5.0, Vec3::ZERO);
+    /// let camera = Camera::perspective_fov(eye, target, Vec3::Y, 1.0, 1.0)?;
+    /// let spheres: SphereBvh = [Sphere::new(target, 1.0)].into_iter().collect();
+    ///
+    /// // A square of 8 by 8 pixels around the middle of a picture of 640 by 640.
+    /// let pixel = |i: u8| vec2(316.5 + f32::from(i % 8), 316.5 + f32::from(i / 8));
+    /// let rays: Vec<_> = (0..64).map(|i| camera.pixel_ray(pixel(i), 640, 640)).collect();
+    /// let mut found = [None; 64];
+    /// spheres.nearest_each(&rays, 0.0..f32::INFINITY, &mut found);
+    /// assert_eq!(found[27], spheres.nearest(&rays[27], 0.0..f32::INFINITY));
+    /// assert!(found.iter().all(|found| found.is_some_and(|(index, _)| index == 0)));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn nearest_each(&self, rays: &[Ray<V>], range: Range<V::Scalar>, found: &mut [Found<V>]) {
+        self.nearest_each_in_lanes(Lanes::best(), rays, &range, found);
+    }
+
+    /// Finds for each ray whether it hits any sphere with `t` in `range`, for shadow rays: writes what
+    /// [`occludes`](crate::Hittable::occludes) returns for `rays[i]` to `occluded[i]`.
+    ///
+    /// What [`nearest_each`](Self::nearest_each) says of the order of rays and of slices that differ in length holds here, too. All
+    /// rays share the range: give the shadow rays to a lamp directions that end there, and `0.0..1.0`.
+    pub fn occludes_each(&self, rays: &[Ray<V>], range: Range<V::Scalar>, occluded: &mut [bool]) {
+        self.occludes_each_in_lanes(Lanes::best(), rays, &range, occluded);
+    }
+
+    /// [`nearest_each`](Self::nearest_each) with that set of instructions.
+    pub(super) fn nearest_each_in_lanes(
+        &self,
+        lanes: Lanes,
+        rays: &[Ray<V>],
+        range: &Range<V::Scalar>,
+        found: &mut [Found<V>],
+    ) {
+        match &self.0 {
+            Shape::Scan(spheres) => nearest_each(spheres, lanes, rays, range, found),
+            Shape::Tree(tree) => nearest_each(tree, lanes, rays, range, found),
+        }
+    }
+
+    /// [`occludes_each`](Self::occludes_each) with that set of instructions.
+    pub(super) fn occludes_each_in_lanes(
+        &self,
+        lanes: Lanes,
+        rays: &[Ray<V>],
+        range: &Range<V::Scalar>,
+        occluded: &mut [bool],
+    ) {
+        match &self.0 {
+            Shape::Scan(spheres) => occludes_each(spheres, lanes, rays, range, occluded),
+            Shape::Tree(tree) => occludes_each(tree, lanes, rays, range, occluded),
+        }
+    }
+}
+
+/// How many rays were asked together: else the tests of packets would test nothing.
+#[cfg(test)]
+pub(super) mod tests {
+    use core::cell::Cell;
+
+    use crate::spheres::packet::Mask;
+
+    std::thread_local!(static TOGETHER: Cell<u32> = const { Cell::new(0) });
+
+    pub(super) fn count(asked: Mask) {
+        TOGETHER.set(TOGETHER.get() + asked.count_ones());
+    }
+
+    /// Those of this thread since the last call.
+    pub(in crate::spheres) fn together() -> u32 {
+        TOGETHER.take()
+    }
+}

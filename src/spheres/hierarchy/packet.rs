@@ -1,0 +1,195 @@
+//! The way of a packet through the hierarchy: as that of one ray, with what passes for any ray asked of each.
+
+use core::cmp::Reverse;
+use core::ops::Range;
+
+use arrayvec::ArrayVec;
+
+use super::boxes::{Boxes, MARGIN};
+use super::frustum::{Enter, Frustum, Prepare, Slabs};
+use super::leaf::{Leaf, NONE};
+use super::region::FAR;
+use super::walk::{Key, MOST_WAITING, child, entry, key};
+use super::{LEAF, Tree};
+use crate::spheres::each::Collection;
+use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
+use crate::spheres::local::narrow;
+use crate::spheres::packet::cone::Cone;
+use crate::spheres::packet::{Around, Mask, Packet, Question};
+use crate::{Hit, Ray, Scalar, Sphere, Vector};
+
+/// How far apart the origins of neighbors may be, in extents of the tree, and their directions, in their lengths. Rays farther apart
+/// share little more than its first nodes.
+const NEIGHBORS: [f32; 2] = [0.125, 0.25];
+
+/// Numbers of 16 boxes, where one instruction can write them.
+#[repr(align(64))]
+struct Numbers([f32; LANES]);
+
+/// Asks which boxes of a node any ray may enter.
+struct EnterAny<'a> {
+    node: &'a Boxes,
+    frustum: &'a Frustum,
+    end: f32,
+    entries: &'a mut Numbers,
+}
+
+impl Vectorized for EnterAny<'_> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, instructions: I) -> u32 {
+        self.frustum.entered(instructions, self.node, self.end, &mut self.entries.0)
+    }
+}
+
+/// Asks which spheres of a leaf any ray may meet.
+struct InLeaf<'a, S> {
+    leaf: &'a Leaf<S>,
+    cone: &'a Cone,
+    end: f32,
+}
+
+impl<S: Scalar> Vectorized for InLeaf<'_, S> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, instructions: I) -> u32 {
+        self.cone.near(instructions, self.leaf.numbers(), self.end)
+    }
+}
+
+impl<V: Vector> Collection<V> for Tree<V> {
+    fn around(&self) -> Around {
+        self.regions.first().map_or_else(
+            || self.apart.around(),
+            |whole| {
+                let (radius, apart) = (whole.extent * FAR, whole.extent * NEIGHBORS[0]);
+                Around {
+                    center: narrow(whole.center),
+                    radius_squared: radius * radius,
+                    neighbors: [apart * apart, NEIGHBORS[1] * NEIGHBORS[1]],
+                }
+            },
+        )
+    }
+
+    fn ask<Q: Question<V>>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) {
+        if !self.apart.is_empty() {
+            packet.scan(lanes, &self.apart, self.first_apart(), question);
+            packet.update_farthest();
+        }
+        let Some(whole) = self.regions.first().filter(|_| packet.alive != 0) else { return };
+        let mut slabs = Slabs::EMPTY;
+        lanes.run(Prepare::new(&mut slabs, packet, whole));
+        let frustum = Frustum::new(packet, whole, MARGIN);
+        let mut entries = Numbers([0.0; LANES]);
+        let mut waiting = ArrayVec::<(Key, Mask), MOST_WAITING>::new();
+        let (mut place, mut rays) = (whole.root, packet.alive);
+        loop {
+            if place & LEAF != 0 {
+                if !self.ask_leaf(lanes, packet, place & !LEAF, rays, question) {
+                    return;
+                }
+            } else if let Some(node) = self.nodes.get(place as usize) {
+                let end = packet.farthest;
+                let mut entered =
+                    lanes.run(EnterAny { node, frustum: &frustum, end, entries: &mut entries });
+                // The nearest is next, and the others as they come.
+                let first = waiting.len();
+                while entered != 0 {
+                    let lane = entered.trailing_zeros();
+                    entered &= entered - 1;
+                    // A box, by its node and its lane: there are fewer than 32 bits can tell apart.
+                    let key = key(entries.0[lane as usize % LANES], place * 16 + lane);
+                    let _ = waiting.try_push((key, rays));
+                }
+                let pushed = waiting.get_mut(first..).unwrap_or_default();
+                pushed.sort_unstable_by_key(|&(key, _)| Reverse(key));
+                if node.region().is_some() {
+                    packet.leave_alone(rays);
+                }
+            }
+            loop {
+                let Some((key, asked)) = waiting.pop() else { return };
+                let asked = asked & packet.alive;
+                let (place_of_node, lane) =
+                    (child(key) as usize / LANES, child(key) as usize % LANES);
+                if entry(key) > packet.farthest || asked == 0 {
+                    continue;
+                }
+                let Some(boxes) = self.nodes.get(place_of_node) else { continue };
+                rays = lanes.run(Enter { slabs: &slabs, packet, boxes, lane, rays: asked });
+                if !packet.pays(2 + Packet::tests(asked), 2 * rays.count_ones()) {
+                    return;
+                }
+                if rays != 0 {
+                    place = boxes.child(child(key) % 16);
+                    break;
+                }
+            }
+        }
+    }
+
+    fn sphere(&self, index: usize) -> Option<Sphere<V>> {
+        self.get(index)
+    }
+
+    fn member(&self, place: u32) -> Option<(usize, Sphere<V>)> {
+        let (leaf, lane) = (place as usize / LANES, place as usize % LANES);
+        let index = match self.leaves.get(leaf) {
+            Some(leaf) => leaf.index(lane),
+            None => *self.apart_indices.get((place - self.first_apart()) as usize)?,
+        };
+        Some((index as usize, self.at_place(place)?))
+    }
+
+    fn nearest_alone(
+        &self,
+        lanes: Lanes,
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> Option<(usize, Hit<V>)> {
+        self.nearest(lanes, ray, range)
+    }
+
+    fn occludes_alone(&self, lanes: Lanes, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
+        self.occludes(lanes, ray, range)
+    }
+}
+
+impl<V: Vector> Tree<V> {
+    /// Asks the spheres of a leaf. Returns `false` where the packet is given up.
+    fn ask_leaf<Q: Question<V>>(
+        &self,
+        lanes: Lanes,
+        packet: &mut Packet,
+        place: u32,
+        rays: Mask,
+        question: &mut Q,
+    ) -> bool {
+        let Some(leaf) = self.leaves.get(place as usize) else { return true };
+        let mut near = lanes.run(InLeaf { leaf, cone: &packet.cone, end: packet.farthest });
+        if near == 0 {
+            return true;
+        }
+        if !packet.pays(near.count_ones() * Packet::tests(rays), rays.count_ones()) {
+            return false;
+        }
+        while near != 0 {
+            let lane = near.trailing_zeros();
+            near &= near - 1;
+            let sphere = leaf.sphere(lane as usize % LANES);
+            if leaf.index(lane as usize % LANES) != NONE {
+                question.ask(packet, lanes, rays & packet.alive, &sphere, place * 16 + lane);
+            }
+        }
+        packet.update_farthest();
+        true
+    }
+
+    /// The place of the first sphere that is kept apart.
+    fn first_apart(&self) -> u32 {
+        super::build::number(self.leaves.len() * LANES)
+    }
+}
