@@ -47,7 +47,7 @@ impl<V: Vector> Hittable<V> for Algebraic<V> {
 
     #[inline(always)]
     fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
-        rejection::may_hit(&self.0, ray, range.end)
+        rejection::may_hit(&self.0, ray, range)
     }
 
     #[inline(always)]
@@ -57,7 +57,7 @@ impl<V: Vector> Hittable<V> for Algebraic<V> {
 
     #[inline(always)]
     fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>, _: Crate) -> u32 {
-        rejection::may_hit_four(objects.each_ref().map(|Self(sphere)| sphere), ray, range.end)
+        rejection::may_hit_four(objects.each_ref().map(|Self(sphere)| sphere), ray, range)
     }
 }
 

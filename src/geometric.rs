@@ -56,7 +56,7 @@ impl<V: Vector> Hittable<V> for Geometric<V> {
 
     #[inline(always)]
     fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
-        rejection::may_hit(&self.0, ray, range.end)
+        rejection::may_hit(&self.0, ray, range)
     }
 
     #[inline(always)]
@@ -66,7 +66,7 @@ impl<V: Vector> Hittable<V> for Geometric<V> {
 
     #[inline(always)]
     fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>, _: Crate) -> u32 {
-        rejection::may_hit_four(objects.each_ref().map(|Self(sphere)| sphere), ray, range.end)
+        rejection::may_hit_four(objects.each_ref().map(|Self(sphere)| sphere), ray, range)
     }
 }
 

@@ -48,7 +48,13 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     ///
     /// To find where the ray leaves a sphere after `hit`, begin the range just above its `t`: at `hit.t.next_up()` or, before Rust
     /// 1.86, at `f32::from_bits(hit.t.to_bits() + 1)`. It costs about what the entry costs. Among several objects, such a range skips
-    /// what has the same `t`.
+    /// what has the same `t`. All crossings with spheres, in order, are what [`SphereBvh::hits`] returns.
+    ///
+    #[cfg_attr(feature = "alloc", doc = "[`SphereBvh::hits`]: crate::SphereBvh::hits")]
+    #[cfg_attr(
+        not(feature = "alloc"),
+        doc = "[`SphereBvh::hits`]: https://docs.rs/eyeray/latest/eyeray/struct.SphereBvh.html#method.hits"
+    )]
     ///
     /// ```
     /// use eyeray::{Hittable, Ray, Sphere};

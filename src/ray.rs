@@ -25,7 +25,7 @@ use crate::Vector;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C)]
-pub struct Ray<V = glam::Vec3> {
+pub struct Ray<V: Vector = glam::Vec3> {
     /// The point where the ray starts.
     pub origin: V,
     /// The direction, whose length is the unit of distances along the ray.

@@ -2,16 +2,16 @@
 //! ray misses may pass the test; a sphere that it hits is never rejected. The filter of the collections (`spheres::filter`) is
 //! the same test in `f32`, over many spheres at a time, of numbers that have been rounded before: one derivation is for both.
 //!
-//! A hit with t in (0, end) is a point of the segment from the ray's origin to `end`. So a sphere is rejected where that segment
-//! stays clear of its ball: where the point of the segment nearest to the center, at t = m, is farther from it than the radius.
-//! With o = c - p, h = d·o, a = d·d, and s = a m,
+//! A hit with t from `start` to `end` is a point of that segment of the ray. So a sphere is rejected where the segment stays clear
+//! of its ball: where the point of the segment nearest to the center, at t = m, is farther from it than the radius. With
+//! o = c - p, h = d·o, a = d·d, and s = a m,
 //!
 //! ```text
-//! s = h, but at least 0 and at most a end
+//! s = h, but at least a start (and 0) and at most a end
 //! |m d - o|² - r² = (o·o - r²) - T > 0,   T = 2 h m - a m² = s (2 h - s) / a
 //! ```
 //!
-//! That rejects the spheres behind the origin and those beyond the nearest hit so far along with those beside the ray. For the
+//! That rejects the spheres before the start and those beyond the nearest hit so far along with those beside the ray. For the
 //! whole line s = h and T = h² / a, which is quicker and goes first. Only 1 / a takes a division, and in a loop it is computed
 //! once for all spheres.
 //!
@@ -21,16 +21,37 @@
 //! o·o - r²   o twice, a product, 3 sums                 is off by at most  6 u o·o
 //!            r² a product, its factor a product, a sum  is off by at most  3 u r²
 //! h          o, a product, 2 sums                       is off by at most  4 u |o| |d|, and so T by 8 u |o| |d| m
-//! T          a 3, the quotient 1, 2 products, 2 sums    is off by at most  8 u T besides
-//! a end      a 3, a product                             is off by at most  4 u a end, and so T by 4 u T
+//! T          a 3, the quotient 1, 2 products            is off by at most  6 u |T| besides
+//!            (h - s) + h, 2 sums                                           u |T| and u s |h - s| / a
+//! a start    a 3, a product, t was rounded 1            is off by at most  5 u of itself, and so T by 10 u s |h - s| / a
+//! a end      a 3, a product                             is off by at most  4 u of itself: no more
 //! ```
 //!
-//! Now let the ray hit: o·o ≤ r² + T. With the distance q = m |d| to the point at m, that to the closest approach, h / |d| ≥ q,
-//! and that of the center from the line, at most r: |o| |d| m = q √((h / |d|)² + r²) ≤ h m + r² / 2 ≤ T + r² / 2. Together the
-//! errors are at most
+//! (The t of a hit, as returned, is no less than the start: so the exact t is no less than (1 - u) of it.)
+//!
+//! Now let the ray hit: o·o ≤ r² + T. Let q = m |d| be the distance to the point at m, and e = |h - s| / |d| how far that is from
+//! the closest approach: s |h - s| / a = q e.
+//!
+//! *Up to the closest approach*, q + e = h / |d|. So T = q (q + 2 e) and q e ≤ T / 2. With the distance of the center from the
+//! line, at most r, |o| q ≤ q √((h / |d|)² + r²) ≤ h m + r² / 2 ≤ T + r² / 2. Together the errors are at most, with 2 u T for the
+//! two sums,
 //!
 //! ```text
-//! 6 u (r² + T) + 3 u r² + 8 u (T + r² / 2) + 8 u T + 4 u T = 13 u r² + 26 u T
+//! 6 u (r² + T) + 3 u r² + 8 u (T + r² / 2) + 8 u T + 8 u T / 2 = 13 u r² + 26 u T
+//! ```
+//!
+//! *Beyond it*, the start is behind the closest approach: T = q (q - 2 e), and as the point at m is in the ball, e ≤ r. If T is not
+//! negative, q = e + √(e² + T), and with e √(e² + T) ≤ e² + T / 2, q e ≤ 2 r² + T / 2. Likewise with |o|² ≤ r² + T,
+//! |o| q ≤ r √(r² + T) + r² + T ≤ 2 r² + 1.5 T. Together the errors are at most
+//!
+//! ```text
+//! 6 u (r² + T) + 3 u r² + 8 u (2 r² + 1.5 T) + 7 u T + 11 u (2 r² + T / 2) = 47 u r² + 30.5 u T
+//! ```
+//!
+//! If T is negative, q ≤ 2 e, and o·o + |T| ≤ r²: so |o| q and q e are at most 2 r². Together the errors are at most
+//!
+//! ```text
+//! 7 u (o·o + |T|) + 3 u r² + 16 u r² + 22 u r² = 48 u r²
 //! ```
 //!
 //! **Rounded numbers.** In the filter, c and p are relative to a center of the collection, and d is of any precision. Rounded to
@@ -42,23 +63,26 @@
 //! ```
 //!
 //! With R for the radius, the center counts no more. The square of the whole is at most R² + 2 u R² + 4.5 u R |o|, and with
-//! 2 R |o| ≤ R² + o·o ≤ 2 R² + T, at most R² (1 + 6.5 u) + 2.25 u T. With 13 u and 26 u, that makes 19.5 u R² + 28.25 u T.
+//! 2 R |o| ≤ R² + o·o ≤ 2 R² + T, at most R² (1 + 6.5 u) + 2.25 u T, without the last term if T is negative. With the above, that
+//! makes 53.5 u R² + 32.75 u T, or 54.5 u R².
 //!
-//! So r² is made larger by `MARGIN`, 24 u, and T by twice that. That leaves 4.5 u r² and 19.75 u T. All terms of the second order
-//! are together below 1,000 u² (r² + T), which is a 16,000th of u (r² + T).
+//! So T is made larger by `MARGIN`, 36 u, and r² by three times that, 108 u: of this, a negative T, which is made still less, takes
+//! 36 u at most. That leaves 17.5 u r² and 3.25 u T. All terms of the second order are together below 10,000 u² (r² + |T|), which is
+//! less than a 1,000th of u (r² + |T|).
 //!
 //! The last subtraction is only compared with a constant, which its rounding does not change.
 //!
 //! **Underflow.** For directions of length 2⁻³⁰ to 2⁶⁰ (in `f64`, 2⁻²⁵⁰ to 2⁵⁰⁰), a and 1 / a are normal numbers. A product that
-//! underflows has an additional error of up to 2⁻¹⁵⁰ (2⁻¹⁰⁷⁵). In h and in a end, this error is multiplied by 2 |o| / |d|, and in
-//! s / a by 2 |o| |d|: together less than 2⁻⁸⁸ |o| (2⁻⁵⁷³ |o|). If |o| < 2⁻¹² (2⁻⁴⁰⁰), this and the errors of the squares are
+//! underflows has an additional error of up to 2⁻¹⁵⁰ (2⁻¹⁰⁷⁵). In h, this error is multiplied by 2 |o| / |d|, in a start and a end by
+//! 2 e / |d|, in a start that is subnormal by 2 e |d|, and in s / a by 2 |o| |d|, where e ≤ |o| + r: together less than 2⁻⁸⁸ |o| (2⁻⁵⁷³ |o|). If |o| < 2⁻¹² (2⁻⁴⁰⁰), this and the errors of the squares are
 //! less than `LEAST`, which the result has to exceed. Otherwise they are far below u o·o. For all other directions, 1 / a is set
 //! to NaN, so that nothing is rejected.
 //!
-//! **Overflow and NaN.** T is never negative where `end` is positive. So overflow in h or T makes the result -∞ or NaN, and so
-//! does an infinite radius. Overflow in o·o makes it +∞ or NaN. Only a finite result rejects. Where `end` is not positive there
-//! is no hit, and either answer is right. What is not rejected so is looked at again: a sphere with a NaN, an infinity or a
+//! **Overflow and NaN.** Overflow in o·o, h or T and an infinite radius make the result infinite or NaN. Only a finite result
+//! rejects. Where `end` is not positive there is no hit, and either answer is right. What is not rejected so is looked at again: a sphere with a NaN, an infinity or a
 //! negative radius, which nothing hits, is rejected at last.
+
+use core::ops::Range;
 
 use glam::{DVec3, Mat4, Vec3, Vec4};
 
@@ -67,7 +91,7 @@ use crate::{Ray, Scalar, Sphere, Vector};
 
 /// The constants of the derivation above in a precision.
 pub trait Bounds: Sized {
-    /// The relative increase of r², and half that of T: 24 u.
+    /// The relative increase of T, and a third of that of r²: 36 u.
     const MARGIN: Self;
     /// The bound that the result has to exceed: more than the errors by underflow.
     const LEAST: Self;
@@ -78,7 +102,8 @@ pub trait Bounds: Sized {
 }
 
 impl Bounds for f32 {
-    const MARGIN: Self = 12.0 * f32::EPSILON;
+    /// Proved in `tests/proofs/rejection.g`.
+    const MARGIN: Self = 18.0 * f32::EPSILON;
     const LEAST: Self = f32::from_bits((127 - 99) << 23); // 2^-99
     const SQUARES: [Self; 2] =
         [f32::from_bits((127 - 60) << 23), f32::from_bits((127 + 120) << 23)];
@@ -86,7 +111,8 @@ impl Bounds for f32 {
 }
 
 impl Bounds for f64 {
-    const MARGIN: Self = 12.0 * f64::EPSILON;
+    /// Proved in `tests/proofs/rejection.g`.
+    const MARGIN: Self = 18.0 * f64::EPSILON;
     const LEAST: Self = f64::from_bits((1023 - 970) << 52); // 2^-970
     const SQUARES: [Self; 2] =
         [f64::from_bits((1023 - 500) << 52), f64::from_bits((1023 + 1000) << 52)];
@@ -103,28 +129,32 @@ pub(crate) fn can_be_hit<V: Vector>(sphere: &Sphere<V>) -> bool {
     sphere.center.to_f64().is_finite() && radius >= V::Scalar::ZERO && radius < V::Scalar::INFINITY
 }
 
-/// Whether the ray may hit the sphere before `end`.
+/// Whether the ray may hit the sphere in a range.
 // Inlined always, as all here: so that a loop computes once what is the ray's.
 #[inline(always)]
-pub(crate) fn may_hit<V: Vector>(sphere: &Sphere<V>, ray: &Ray<V>, end: V::Scalar) -> bool {
-    V::perform(One { sphere, ray, end })
+pub(crate) fn may_hit<V: Vector>(
+    sphere: &Sphere<V>,
+    ray: &Ray<V>,
+    range: Range<V::Scalar>,
+) -> bool {
+    V::perform(One { sphere, ray, range })
 }
 
-/// Which of the spheres the ray may hit before `end`: the bit `1 << i` is that of `spheres[i]`.
+/// Which of the spheres the ray may hit in a range: the bit `1 << i` is that of `spheres[i]`.
 #[inline(always)]
 pub(crate) fn may_hit_four<V: Vector>(
     spheres: [&Sphere<V>; 4],
     ray: &Ray<V>,
-    end: V::Scalar,
+    range: Range<V::Scalar>,
 ) -> u32 {
-    V::perform(Four { spheres, ray, end })
+    V::perform(Four { spheres, ray, range })
 }
 
 /// [`may_hit`].
 struct One<'a, V: Vector> {
     sphere: &'a Sphere<V>,
     ray: &'a Ray<V>,
-    end: V::Scalar,
+    range: Range<V::Scalar>,
 }
 
 impl<V: Vector> Operation<V> for One<'_, V> {
@@ -135,7 +165,7 @@ impl<V: Vector> Operation<V> for One<'_, V> {
     where
         V: Internal,
     {
-        may_hit_within(V::Scalar::MARGIN, self.sphere, self.ray, self.end)
+        may_hit_within(V::Scalar::MARGIN, self.sphere, self.ray, self.range)
     }
 }
 
@@ -143,7 +173,7 @@ impl<V: Vector> Operation<V> for One<'_, V> {
 struct Four<'a, V: Vector> {
     spheres: [&'a Sphere<V>; 4],
     ray: &'a Ray<V>,
-    end: V::Scalar,
+    range: Range<V::Scalar>,
 }
 
 impl<V: Vector> Operation<V> for Four<'_, V> {
@@ -154,7 +184,7 @@ impl<V: Vector> Operation<V> for Four<'_, V> {
     where
         V: Internal,
     {
-        V::may_hit_four_within(V::Scalar::MARGIN, self.spheres, self.ray, self.end)
+        V::may_hit_four_within(V::Scalar::MARGIN, self.spheres, self.ray, self.range)
     }
 }
 
@@ -165,7 +195,7 @@ pub trait Rejection: Sized {
         margin: Self::Scalar,
         spheres: [&Sphere<Self>; 4],
         ray: &Ray<Self>,
-        end: Self::Scalar,
+        range: Range<Self::Scalar>,
     ) -> u32
     where
         Self: Vector;
@@ -174,14 +204,20 @@ pub trait Rejection: Sized {
 impl Rejection for Vec3 {
     // A vector of four is one register.
     #[inline(always)]
-    fn may_hit_four_within(margin: f32, spheres: [&Sphere; 4], ray: &Ray, end: f32) -> u32 {
+    fn may_hit_four_within(
+        margin: f32,
+        spheres: [&Sphere; 4],
+        ray: &Ray,
+        range: Range<f32>,
+    ) -> u32 {
         let [p, q, r, s] = spheres.map(|sphere| sphere.center.extend(sphere.radius));
         let transposed = Mat4::from_cols(p, q, r, s).transpose();
         let Mat4 { x_axis: x, y_axis: y, z_axis: z, w_axis: radius } = transposed;
         let Ray { origin, direction } = *ray;
         let [a, one_over_a] = squares(margin, ray);
+        let [shortest, longest] = limits(a, range);
         let (x, y, z) = (x - origin.x, y - origin.y, z - origin.z);
-        let power = x * x + y * y + z * z - radius * radius * (1.0 + margin);
+        let power = x * x + y * y + z * z - radius * radius * (1.0 + 3.0 * margin);
         let h = x * direction.x + y * direction.y + z * direction.z;
         let are_clear = |clearance: Vec4| {
             let exceeds = clearance.cmpgt(Vec4::splat(f32::LEAST));
@@ -192,7 +228,7 @@ impl Rejection for Vec3 {
         if beside == 0b1111 {
             return 0;
         }
-        let s = h.max(Vec4::ZERO).min(Vec4::splat(a * end));
+        let s = h.max(Vec4::splat(shortest)).min(Vec4::splat(longest));
         let near = 0b1111 & !(beside | are_clear(power - s * one_over_a * ((h - s) + h)));
         if near == 0 { 0 } else { near & can_be_hit_four(spheres) }
     }
@@ -205,17 +241,19 @@ impl Rejection for DVec3 {
         margin: f64,
         spheres: [&Sphere<Self>; 4],
         ray: &Ray<Self>,
-        end: f64,
+        range: Range<f64>,
     ) -> u32 {
         let Ray { origin, direction } = *ray;
         let [a, one_over_a] = squares(margin, ray);
+        let limits = limits(a, range);
         let x = spheres.map(|sphere| sphere.center.x - origin.x);
         let y = spheres.map(|sphere| sphere.center.y - origin.y);
         let z = spheres.map(|sphere| sphere.center.z - origin.z);
         let (mut power, mut h, mut beside) = ([0.0; 4], [0.0; 4], [0.0; 4]);
         for i in 0..4 {
             let radius = spheres[i].radius;
-            power[i] = x[i] * x[i] + y[i] * y[i] + z[i] * z[i] - radius * radius * (1.0 + margin);
+            power[i] =
+                x[i] * x[i] + y[i] * y[i] + z[i] * z[i] - radius * radius * (1.0 + 3.0 * margin);
             h[i] = x[i] * direction.x + y[i] * direction.y + z[i] * direction.z;
             beside[i] = power[i] - h[i] * one_over_a * h[i];
         }
@@ -229,7 +267,7 @@ impl Rejection for DVec3 {
         let mut near = 0;
         for i in 0..4 {
             let may_hit = !is_clear(beside[i])
-                && is_near_segment(power[i], h[i], [a, one_over_a], end)
+                && is_near_segment(power[i], h[i], one_over_a, limits)
                 && can_be_hit(spheres[i]);
             near |= u32::from(may_hit) << i;
         }
@@ -242,15 +280,16 @@ fn may_hit_within<V: Internal>(
     margin: V::Scalar,
     sphere: &Sphere<V>,
     ray: &Ray<V>,
-    end: V::Scalar,
+    range: Range<V::Scalar>,
 ) -> bool {
     let [a, one_over_a] = squares(margin, ray);
     let o = sphere.center - ray.origin;
-    let power = o.dot(o) - sphere.radius * sphere.radius * (V::Scalar::ONE + margin);
+    let power =
+        o.dot(o) - sphere.radius * sphere.radius * (V::Scalar::ONE + margin + margin + margin);
     let h = ray.direction.dot(o);
     // Most spheres are beside the line.
     !is_clear(power - h * one_over_a * h)
-        && is_near_segment(power, h, [a, one_over_a], end)
+        && is_near_segment(power, h, one_over_a, limits(a, range))
         && can_be_hit(sphere)
 }
 
@@ -264,12 +303,22 @@ fn can_be_hit_four<V: Vector>(spheres: [&Sphere<V>; 4]) -> u32 {
     bits
 }
 
-/// Whether the segment up to `end` may come as near as the radius.
+/// a start, or 0, and a end.
 #[inline(always)]
-fn is_near_segment<S: Scalar + Bounds>(power: S, h: S, [a, one_over_a]: [S; 2], end: S) -> bool {
-    let longest = a * end;
+fn limits<S: Scalar>(a: S, Range { start, end }: Range<S>) -> [S; 2] {
+    [if start > S::ZERO { a * start } else { S::ZERO }, a * end]
+}
+
+/// Whether the segment between these limits may come as near as the radius.
+#[inline(always)]
+fn is_near_segment<S: Scalar + Bounds>(
+    power: S,
+    h: S,
+    one_over_a: S,
+    [shortest, longest]: [S; 2],
+) -> bool {
     // Comparisons that are one instruction each: `f32::clamp` looks for NaN.
-    let s = if h > S::ZERO { h } else { S::ZERO };
+    let s = if h > shortest { h } else { shortest };
     let s = if s < longest { s } else { longest };
     !is_clear(power - s * one_over_a * ((h - s) + h))
 }
@@ -280,13 +329,13 @@ fn is_clear<S: Scalar + Bounds>(clearance: S) -> bool {
     clearance > S::LEAST && clearance < S::INFINITY
 }
 
-/// a, and 1 / a increased by twice the margin, or NaN for unusual directions.
+/// a, and 1 / a increased by the margin, or NaN for unusual directions.
 #[inline(always)]
 fn squares<V: Internal>(margin: V::Scalar, ray: &Ray<V>) -> [V::Scalar; 2] {
     let a = ray.direction.dot(ray.direction);
     let [least, largest] = V::Scalar::SQUARES;
     let is_usual = a >= least && a <= largest;
-    [a, if is_usual { (V::Scalar::ONE + margin + margin) / a } else { V::Scalar::NAN }]
+    [a, if is_usual { (V::Scalar::ONE + margin) / a } else { V::Scalar::NAN }]
 }
 
 #[cfg(test)]
@@ -319,17 +368,22 @@ mod tests {
 
             let sphere = Sphere::new(V::from_f64(center), V::Scalar::from_f64(radius));
             let ray = Ray::new(V::from_f64(origin), V::from_f64(direction));
-            let all = V::Scalar::ZERO..V::Scalar::INFINITY;
-            let Some(hit) = sphere.intersect(&ray, all) else { continue };
-            for end in [V::Scalar::INFINITY, above(hit.t)] {
+            let (zero, infinity) = (V::Scalar::ZERO, V::Scalar::INFINITY);
+            let Some(hit) = sphere.intersect(&ray, zero..infinity) else { continue };
+            let Some([_, exit]) = sphere.roots(&ray) else { continue };
+            for range in [zero..infinity, zero..above(hit.t), hit.t..above(hit.t), exit..infinity] {
                 hits += 1;
-                let one = may_hit_within(margin, &sphere, &ray, end);
+                let one = may_hit_within(margin, &sphere, &ray, range.clone());
                 let mut four = [&empty; 4];
                 let place = case % 4;
                 four[place as usize] = &sphere;
-                let near = V::may_hit_four_within(margin, four, &ray, end);
+                let near = V::may_hit_four_within(margin, four, &ray, range.clone());
                 assert_eq!(near & !(1 << place), 0, "a point far away passed");
-                assert_eq!(near != 0, one, "one is not as four are: {sphere:?}, {ray:?}, {end}");
+                assert_eq!(
+                    near != 0,
+                    one,
+                    "one is not as four are: {sphere:?}, {ray:?}, {range:?}"
+                );
                 rejected += u32::from(!one);
             }
         }

@@ -83,7 +83,7 @@ pub struct Crate(pub(crate) ());
 /// use eyeray::{Ray, Sphere, Vector};
 ///
 /// fn may_hit<V: Vector>(spheres: [&Sphere<V>; 4], ray: &Ray<V>, end: V::Scalar) -> u32 {
-///     V::may_hit_four_within(end, spheres, ray, end)
+///     V::may_hit_four_within(end, spheres, ray, end..end)
 /// }
 /// ```
 ///

@@ -15,7 +15,8 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 
 /// A sphere: a center and a radius.
 ///
-/// Whether a ray hits it is decided exactly, and the distance is correctly rounded.
+/// Whether a ray hits it is decided exactly, and the distance is correctly rounded. Its nearest hit and occlusion come from the
+/// trait [`Hittable`], which must be in scope (`use eyeray::Hittable`).
 ///
 /// ```
 /// use eyeray::{Hittable, Ray, Sphere};
@@ -26,8 +27,7 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 ///
 /// // The ray enters at z = -3, 1.5 lengths of its direction away, and leaves at z = -5.
 /// assert_eq!(sphere.intersect(&ray, 0.0..f32::INFINITY).map(|hit| hit.t), Some(1.5));
-/// assert_eq!(sphere.roots_algebraic(&ray), Some([1.5, 2.5]));
-/// assert_eq!(sphere.roots_geometric(&ray), Some([1.5, 2.5]));
+/// assert_eq!(sphere.roots(&ray), Some([1.5, 2.5]));
 /// ```
 ///
 /// # What is promised
@@ -36,8 +36,8 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 /// as they are:
 ///
 /// 1. Hit or miss is never wrong, and each root is t rounded to the nearest number of the format, ties to even, with overflow
-///    to infinity and gradual underflow. So [`Algebraic`](crate::Algebraic) and [`Geometric`](crate::Geometric) give the same roots, bit for bit, on every machine, with
-///    fused multiply-add or without.
+///    to infinity and gradual underflow. So [`Algebraic`](crate::Algebraic) and [`Geometric`](crate::Geometric) give the same
+///    roots, bit for bit, on every machine, with fused multiply-add or without.
 /// 2. A line that touches the sphere hits it, with two equal roots. A sphere of radius 0 is hit if and only if the line goes
 ///    through its center.
 /// 3. A NaN or an infinity in the ray or the sphere, a zero direction or a negative radius gives `None`. Nothing panics, and
@@ -45,10 +45,10 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 /// 4. The direction need not be unit, and t counts in its lengths: of 2ᵏ times the direction, t is 2⁻ᵏ times as large,
 ///    exactly.
 /// 5. A ray is a half-line: a hit is at the smallest root that, as returned, is finite, above 0 and in the range.
-/// 6. Each coordinate of [`Hit::point`] is off by at most 0.51 ulp of itself (1 ulp where it is subnormal or, in `f64`, below 2⁻⁸⁴⁸)
-///    and the smaller of 2⁻³⁰ of the distance travelled, t times the direction's length, and 2⁻²⁴ of the radius (with `DVec3` 2⁻⁶⁰
-///    and 2⁻⁵³). [`Hit::normal`] is within 2 ulp of 1 of the outward unit normal there. At radius 0, where there is none, it points
-///    back along the ray.
+/// 6. Each coordinate of [`Hit::point`] is off by at most 0.51 ulp of itself, plus the smaller of 2⁻³⁰ of the distance travelled (t
+///    times the direction's length) and 2⁻²⁴ of the radius; with `DVec3`, these are 2⁻⁶⁰ and 2⁻⁵³. Instead of 0.51 ulp it is 1 ulp
+///    where the coordinate is subnormal or, in `f64`, below 2⁻⁸⁴⁸. Each coordinate of [`Hit::normal`], the outward unit normal, is
+///    off by at most 2 ulp of 1; at radius 0, where there is none, it points back along the ray.
 /// 7. A ray of [`Hit::spawn`] never hits the surface that it leaves, if the radius is at least 1,000 ulp of the coordinates of the
 ///    point. It starts no farther from it than stated at [`spawn`](Hit::spawn).
 /// 8. Of many spheres, the one returned is that whose exact root is least among those accepted by point 5, also where distances round
@@ -152,6 +152,43 @@ impl<V: Vector> Sphere<V> {
         self.roots_by::<ClosestApproach>(ray)
     }
 
+    /// Returns where the ray leaves the sphere, if `t` > 0 and in `range` there. `None` also where the line misses.
+    ///
+    /// [`intersect`](Hittable::intersect) returns where the ray enters or, from inside, leaves. The two together give what the ray
+    /// passes through of the sphere, with both points and normals, as constructive solid geometry needs it. The normal is outward
+    /// here, too.
+    ///
+    /// A line that touches the sphere leaves it where it enters. From far away, both `t` may be equal also where the line passes
+    /// through: the point and the normal are then still those of the exit.
+    ///
+    /// ```
+    /// use eyeray::{Hittable, Ray, Sphere};
+    /// use glam::{DVec3, dvec3};
+    ///
+    /// let all = 0.0..f64::INFINITY;
+    /// let sphere = Sphere::new(DVec3::ZERO, 1.0);
+    /// let ray = Ray::new(dvec3(0.0, 0.0, 3.0), DVec3::NEG_Z);
+    /// let exit = sphere.exit(&ray, all.clone());
+    /// assert_eq!(exit.map(|exit| (exit.t, exit.normal)), Some((4.0, DVec3::NEG_Z)));
+    ///
+    /// // From 1e17 away, 2 is less than the distance between two numbers.
+    /// let far_away = Ray::new(dvec3(0.0, 0.0, 1e17), DVec3::NEG_Z);
+    /// let entry = sphere.intersect(&far_away, all.clone());
+    /// let exit = sphere.exit(&far_away, all);
+    /// assert_eq!(entry.map(|entry| (entry.t, entry.point)), Some((1e17, DVec3::Z)));
+    /// assert_eq!(exit.map(|exit| (exit.t, exit.point)), Some((1e17, DVec3::NEG_Z)));
+    /// ```
+    pub fn exit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>> {
+        let [near, far] = self.roots(ray)?;
+        if !range.contains(&far) {
+            None
+        } else if near < far {
+            self.intersect(ray, far..range.end)
+        } else {
+            V::perform(ExitAtSameT { sphere: self, ray })
+        }
+    }
+
     /// Where the ray meets the sphere first, by that derivation.
     #[inline(always)]
     pub(crate) fn intersect_by<D: Derivation>(
@@ -178,7 +215,7 @@ impl<V: Vector> Hittable<V> for Sphere<V> {
 
     #[inline(always)]
     fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
-        rejection::may_hit(self, ray, range.end)
+        rejection::may_hit(self, ray, range)
     }
 
     #[inline(always)]
@@ -188,7 +225,7 @@ impl<V: Vector> Hittable<V> for Sphere<V> {
 
     #[inline(always)]
     fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>, _: Crate) -> u32 {
-        rejection::may_hit_four(objects.each_ref(), ray, range.end)
+        rejection::may_hit_four(objects.each_ref(), ray, range)
     }
 }
 
@@ -209,6 +246,23 @@ impl<V: Vector, D: Derivation> Operation<V> for Intersection<'_, V, D> {
         V: Internal,
     {
         V::intersect::<D>(self.sphere, self.ray, self.range)
+    }
+}
+
+/// [`Sphere::exit`] where both roots round to the same number.
+struct ExitAtSameT<'a, V: Vector> {
+    sphere: &'a Sphere<V>,
+    ray: &'a Ray<V>,
+}
+
+impl<V: Vector> Operation<V> for ExitAtSameT<'_, V> {
+    type Output = Option<Hit<V>>;
+
+    fn run(self) -> Option<Hit<V>>
+    where
+        V: Internal,
+    {
+        V::exit_at_same_t(self.sphere, self.ray)
     }
 }
 

@@ -3,7 +3,7 @@
 use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use glam::{DVec2, DVec3, Vec2, Vec3};
+use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec3};
 
 use crate::sealed::{Sealed, SealedScalar};
 
@@ -42,6 +42,9 @@ pub trait Vector:
 
     /// The vector of two dimensions of the same precision, for points of the view plane and for pixels.
     type Vec2: Copy + Debug + Default + PartialEq + Send + Sync + 'static;
+
+    /// The matrix of the same precision, for view and projection matrices: [`Mat4`](glam::Mat4) or [`DMat4`](glam::DMat4).
+    type Mat4: Matrix<Vector = Self>;
 
     /// The zero vector.
     const ZERO: Self;
@@ -121,6 +124,7 @@ impl Scalar for f64 {
 impl Vector for Vec3 {
     type Scalar = f32;
     type Vec2 = Vec2;
+    type Mat4 = Mat4;
 
     const ZERO: Self = Self::ZERO;
 
@@ -153,6 +157,7 @@ impl Vector for Vec3 {
 impl Vector for DVec3 {
     type Scalar = f64;
     type Vec2 = DVec2;
+    type Mat4 = DMat4;
 
     const ZERO: Self = Self::ZERO;
 
@@ -179,5 +184,45 @@ impl Vector for DVec3 {
     #[inline]
     fn dot(self, other: Self) -> f64 {
         DVec3::dot(self, other)
+    }
+}
+
+/// A matrix of four by four, of the precision of a vector. The vector follows from the matrix, so that a call need not name it.
+pub trait Matrix: Copy + Debug + Default + PartialEq + Send + Sync + 'static {
+    /// The vector of the same precision.
+    type Vector: Vector<Mat4 = Self>;
+
+    /// Converts the matrix to `f64`, exactly.
+    fn to_f64(self) -> DMat4;
+
+    /// Rounds each element to the nearest value of this precision: beyond the largest finite one, infinity.
+    fn from_f64(matrix: DMat4) -> Self;
+}
+
+impl Matrix for Mat4 {
+    type Vector = Vec3;
+
+    #[inline]
+    fn to_f64(self) -> DMat4 {
+        self.as_dmat4()
+    }
+
+    #[inline]
+    fn from_f64(matrix: DMat4) -> Self {
+        matrix.as_mat4()
+    }
+}
+
+impl Matrix for DMat4 {
+    type Vector = DVec3;
+
+    #[inline]
+    fn to_f64(self) -> DMat4 {
+        self
+    }
+
+    #[inline]
+    fn from_f64(matrix: DMat4) -> Self {
+        matrix
     }
 }

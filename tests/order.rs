@@ -16,10 +16,23 @@ fn all<S: Scalar>() -> std::ops::Range<S> {
     S::ZERO..S::INFINITY
 }
 
-/// A sphere with something else, as scenes have it, that knows nothing of this crate's order.
+/// A sphere with something else, as scenes have it, that tells which sphere it is.
 struct Painted<V: Vector>(Sphere<V>);
 
 impl<V: Vector> Hittable<V> for Painted<V> {
+    fn intersect(&self, ray: &Ray<V>, range: std::ops::Range<V::Scalar>) -> Option<Hit<V>> {
+        self.0.intersect(ray, range)
+    }
+
+    fn as_sphere(&self) -> Option<Sphere<V>> {
+        self.0.as_sphere()
+    }
+}
+
+/// The same, but for that: a shape that knows nothing of this crate's order.
+struct Shape<V: Vector>(Sphere<V>);
+
+impl<V: Vector> Hittable<V> for Shape<V> {
     fn intersect(&self, ray: &Ray<V>, range: std::ops::Range<V::Scalar>) -> Option<Hit<V>> {
         self.0.intersect(ray, range)
     }
@@ -111,6 +124,26 @@ fn the_atom_in_front_is_hit_from_any_distance() {
         }
     }
     assert!(ties[0] > 20 && ties[1] > 200, "{ties:?}");
+}
+
+/// Containers tell which sphere they hold, and of shapes that tell nothing, the first of those at the same distance is returned.
+#[test]
+fn spheres_are_compared_through_pointers_and_shapes_are_not() {
+    let ray = Ray::new(Vec3::X * -1e7, Vec3::X);
+    let spheres = [0.2, 0.1].map(|x| Sphere::new(Vec3::X * x, 1.0));
+    let hits = spheres.map(|sphere| sphere.intersect(&ray, all()).map(|hit| hit.t));
+    assert_eq!(hits[0], hits[1]);
+    let index = |found: Option<(usize, Hit)>| found.map(|(index, _)| index);
+    assert_eq!(index(nearest(&spheres.each_ref(), &ray, all())), Some(1));
+    assert_eq!(index(nearest(&spheres.map(Box::new), &ray, all())), Some(1));
+    assert_eq!(index(nearest(&spheres.map(std::rc::Rc::new), &ray, all())), Some(1));
+    assert_eq!(index(nearest(&spheres.map(std::sync::Arc::new), &ray, all())), Some(1));
+    assert_eq!(index(nearest(&spheres.map(Algebraic), &ray, all())), Some(1));
+    assert_eq!(index(nearest(&spheres.map(Geometric), &ray, all())), Some(1));
+    assert_eq!(index(nearest(&spheres.map(Shape), &ray, all())), Some(0));
+    // A slice is hit where the sphere in front is.
+    let point = |scene: &dyn Hittable| scene.intersect(&ray, all()).map(|hit| hit.point);
+    assert_eq!(point(&spheres), point(&spheres[1]));
 }
 
 /// From inside, where the far crossings are compared, and of equal ones the lowest index.

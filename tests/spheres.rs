@@ -4,7 +4,7 @@
 use std::fmt::Debug;
 use std::ops::Range;
 
-use eyeray::{Hit, Hittable, Ray, Scalar, Sphere, SphereBvh, Spheres, Vector, nearest};
+use eyeray::{Hit, Hittable, Nearest, Ray, Scalar, Sphere, SphereBvh, Spheres, Vector, nearest};
 use glam::{DVec3, Vec3, dvec3, vec3};
 use proptest::prelude::*;
 
@@ -138,6 +138,23 @@ fn is_a_collection() {
     assert!(SphereBvh::<Vec3>::default().is_empty());
 }
 
+/// Code that takes any of the collections, and a reference to one that is not known.
+#[test]
+fn are_asked_in_one_way() {
+    fn ask(collection: &(impl Nearest<DVec3> + ?Sized)) -> Option<(usize, f64)> {
+        let along = Ray::new(dvec3(100.0, 0.0, 0.0), DVec3::NEG_X);
+        collection.nearest(&along, 0.0..f64::INFINITY).map(|(index, hit)| (index, hit.t))
+    }
+    let spheres = [3.0, 6.0, 5.0].map(|x| Sphere::new(DVec3::X * x, 0.5));
+    let (scan, bvh) = (Spheres::from(spheres), SphereBvh::from(spheres));
+    let all: [&dyn Nearest<DVec3>; 5] =
+        [&spheres, &spheres.as_slice(), &spheres.to_vec(), &scan, &bvh];
+    for collection in all {
+        assert_eq!(ask(collection), Some((1, 93.5)));
+    }
+    assert_eq!(ask(spheres.as_slice()), Some((1, 93.5)));
+}
+
 /// The ways to make a collection and to take it apart.
 fn is_made_and_taken_apart<V: Vector>(spheres: [Sphere<V>; 3]) {
     let slice = spheres.as_slice();
@@ -151,6 +168,7 @@ fn is_made_and_taken_apart<V: Vector>(spheres: [Sphere<V>; 3]) {
     extended.extend(slice[1..].iter().copied());
     assert_eq!(extended, expected);
     assert!(expected.clone().into_iter().eq(spheres));
+    assert_eq!((&expected).into_iter().collect::<Spheres<V>>(), expected);
 
     let bvh = SphereBvh::from(expected);
     assert_eq!(SphereBvh::from(spheres), bvh);
@@ -158,6 +176,62 @@ fn is_made_and_taken_apart<V: Vector>(spheres: [Sphere<V>; 3]) {
     assert_eq!(SphereBvh::from(slice.to_vec()), bvh);
     assert_eq!(slice.iter().collect::<SphereBvh<V>>(), bvh);
     assert_ne!(SphereBvh::from(&slice[..2]), bvh);
+    assert_ne!(SphereBvh::from([slice[1], slice[0], slice[2]]), bvh);
+    // As a scan, and as a tree.
+    for count in [3, 500] {
+        let many: Vec<Sphere<V>> = slice.iter().copied().cycle().take(count).collect();
+        let bvh = SphereBvh::new(&many);
+        assert!((&bvh).into_iter().eq(many.iter().copied()));
+        assert!((&bvh).into_iter().rev().eq(many.iter().rev().copied()));
+        let mut iter = (&bvh).into_iter();
+        assert_eq!(iter.nth(1), Some(many[1]));
+        assert_eq!(iter.next_back(), many.last().copied());
+        assert_eq!((iter.len(), iter.clone().count()), (count - 3, count - 3));
+        assert_eq!(iter.nth(count), None);
+        let mut changed = many.clone();
+        changed[count - 1].radius = V::Scalar::ZERO;
+        assert_ne!(SphereBvh::new(&changed), bvh);
+        assert_eq!(bvh.into_iter().collect::<Vec<_>>(), many);
+    }
+}
+
+/// The box is the least that holds the boxes of all, in whatever collection.
+fn bounds_are_those_of_all<V: Vector>(count: usize) {
+    let numbers = |index: usize| {
+        let angle = index as f64;
+        dvec3(angle.sin() * 7.1, (angle * 1.3).cos() * 1e5, angle * 0.01)
+    };
+    let slice: Vec<Sphere<V>> = (0..count)
+        .map(|index| Sphere::new(V::from_f64(numbers(index)), V::Scalar::from_f64(0.1)))
+        .collect();
+    let corners = |(low, high): (V, V)| [low.to_f64(), high.to_f64()];
+    let expected =
+        slice.iter().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], sphere| {
+            let [sphere_low, sphere_high] = corners(sphere.bounds());
+            [low.min(sphere_low), high.max(sphere_high)]
+        });
+    assert_eq!(corners(Spheres::from(slice.as_slice()).bounds()), expected);
+    assert_eq!(corners(SphereBvh::new(&slice).bounds()), expected);
+
+    // What no ray can hit does not count.
+    let radius = V::Scalar::ONE;
+    let mut more = slice;
+    for center in [DVec3::NAN, DVec3::INFINITY] {
+        more.push(Sphere::new(V::from_f64(center), radius));
+    }
+    more.push(Sphere::new(V::from_f64(DVec3::splat(1e9)), -radius));
+    assert_eq!(corners(Spheres::from(more.as_slice()).bounds()), expected);
+    assert_eq!(corners(SphereBvh::new(&more).bounds()), expected);
+}
+
+#[test]
+fn bounds_are_those_of_all_spheres() {
+    for count in [0, 1, 2, 40, 1000] {
+        bounds_are_those_of_all::<Vec3>(count);
+        bounds_are_those_of_all::<DVec3>(count);
+    }
+    let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    assert_eq!((Spheres::new().bounds(), SphereBvh::default().bounds()), (none, none));
 }
 
 #[test]

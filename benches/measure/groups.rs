@@ -27,7 +27,7 @@ pub const GROUPS: [Group; 6] = [
     },
     Group { name: "huge spheres", families: &["huge", "hugest"] },
     Group {
-        name: "at the limb",
+        name: "grazing",
         families: &[
             "grazing",
             "at the limb",

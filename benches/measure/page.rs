@@ -9,7 +9,8 @@ use super::arguments::Effort;
 use super::conditions;
 
 /// The programs in the order of interest.
-const PROGRAMS: [&str; 4] = ["speed_vs_error", "sphere_slices", "spheres", "throughput"];
+const PROGRAMS: [&str; 5] =
+    ["speed_vs_error", "sphere_slices", "spheres", "crossings", "throughput"];
 
 /// The file of a program's part.
 const PART: &str = "page.md";

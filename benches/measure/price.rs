@@ -1,14 +1,16 @@
 //! The price of exactness: eyeray's times in multiples of the textbook's on the easy family.
 
-use eyeray::{Algebraic, Geometric, Hit, Hittable};
+use std::hint::black_box;
+
+use eyeray::{Algebraic, Geometric, Hit, Hittable, Scalar, Vector};
 use glam::{DVec3, Vec3};
 
 use super::arguments::Effort;
 use super::report::Table;
-use super::timing::{self, Regime};
+use super::timing::{self, Regime, Turn};
 use super::{Measured, SEED, Test, Timed, cases};
 use crate::methods::Shading;
-use crate::support::families::{FAMILIES, Family};
+use crate::support::families::{Case, FAMILIES, Family};
 
 /// Blocks of cases that are learned and timed one after the other, so that rare cases are among them.
 const BLOCKS: usize = 4;
@@ -123,6 +125,35 @@ pub struct Questions<V: Measured> {
     roots_geometric: Test<V, [V::Scalar; 2]>,
     textbook_hit: Test<V, Shading<V, V::Scalar>>,
     hit: Test<V, Hit<V>>,
+    /// The crossing after the nearest: the range begins at the next float.
+    exit: InRange<V>,
+    /// Nothing: the range begins behind both roots.
+    behind: InRange<V>,
+}
+
+/// The nearest root in a range that begins at a place of its own for each case.
+struct InRange<V: Measured> {
+    /// That place, between or behind the roots.
+    start: fn([V::Scalar; 2]) -> V::Scalar,
+    answer: Box<InRanges<V>>,
+}
+
+type InRanges<V> =
+    dyn Fn(&[Case<V>], &[<V as Vector>::Scalar], &mut [Option<<V as Vector>::Scalar>]) + Sync;
+
+impl<V: Measured> Timed<V> for InRange<V> {
+    /// Where a ray misses, its range is the whole half-line.
+    fn turn<'a>(&'a self, cases: &'a [Case<V>]) -> Turn<'a> {
+        let start = |(ray, sphere): &Case<V>| {
+            let of_hit = |[near, far]: [V::Scalar; 2]| {
+                if near > V::Scalar::ZERO { (self.start)([near, far]) } else { V::Scalar::ZERO }
+            };
+            sphere.roots(ray).map_or(V::Scalar::ZERO, of_hit)
+        };
+        let starts: Vec<_> = cases.iter().map(start).collect();
+        let mut answers = vec![None; cases.len()];
+        Box::new(move || (self.answer)(black_box(cases), black_box(&starts), &mut answers))
+    }
 }
 
 macro_rules! questions {
@@ -131,6 +162,16 @@ macro_rules! questions {
             use crate::methods::$module::{ahead, textbook, textbook_shading};
 
             const ALL: std::ops::Range<$float> = 0.0..$float::INFINITY;
+            let in_range = |start| InRange::<$vector> {
+                start,
+                answer: Box::new(|cases, starts, answers| {
+                    for (((ray, sphere), &start), answer) in cases.iter().zip(starts).zip(answers) {
+                        *answer = sphere.intersect(ray, start..$float::INFINITY).map(|hit| hit.t);
+                        // As for the others.
+                        black_box(answer);
+                    }
+                }),
+            };
             Questions {
                 textbook: Test::new(|ray, sphere| ahead(textbook(ray, sphere))),
                 algebraic: Test::new(|ray, sphere| {
@@ -144,6 +185,8 @@ macro_rules! questions {
                 roots_geometric: Test::new(|ray, sphere| sphere.roots_geometric(ray)),
                 textbook_hit: Test::new(textbook_shading),
                 hit: Test::new(|ray, sphere| sphere.intersect(ray, ALL)),
+                exit: in_range(|[near, _]| $float::from_bits(near.to_bits() + 1)),
+                behind: in_range(|[near, far]| far + (far - near)),
             }
         }
     };
@@ -199,7 +242,10 @@ impl Prices {
         roots_at_most: f64,
         effort: Effort,
     ) {
-        let asked: [(&str, &dyn Timed<V>, String); 7] = [
+        /// An exit is to take at most 1.5 times the entry.
+        const EXIT: f64 = 1.5;
+        let exit_at_most = multiple(EXIT * self.of(family));
+        let asked: [(&str, &dyn Timed<V>, String); 9] = [
             ("nearest root, `Algebraic`", &questions.algebraic, String::new()),
             ("nearest root, `Geometric`", &questions.geometric, String::new()),
             ("both roots, textbook", &questions.textbook_roots, String::new()),
@@ -207,6 +253,8 @@ impl Prices {
             ("both roots, `roots_geometric`", &questions.roots_geometric, multiple(roots_at_most)),
             ("whole hit, textbook", &questions.textbook_hit, String::new()),
             ("whole hit, `intersect`", &questions.hit, String::new()),
+            ("exit, range from the next float on", &questions.exit, exit_at_most.clone()),
+            ("nothing, range behind", &questions.behind, exit_at_most),
         ];
         let tests: Vec<_> = asked.iter().map(|(_, test, _)| *test).collect();
         let times = predicted(&tests, &questions.textbook, family_named(family), effort);
@@ -271,6 +319,8 @@ pub fn in_short(of_precisions: &[&Prices]) -> Table {
         ("both roots, unit sphere at 2 to 10", "easy", "both roots"),
         ("both roots, distance/radius 1e2 to 1e4", "far", "both roots"),
         ("point and normal too, unit sphere at 2 to 10", "easy", "whole hit"),
+        ("exit, unit sphere at 2 to 10", "easy", "exit"),
+        ("range behind, unit sphere at 2 to 10", "easy", "range behind"),
     ] {
         row(what, &mut of_precisions.iter().map(|prices| prices.of_question(family, question)));
     }

@@ -234,23 +234,17 @@ the nearest root on the easy family in {}, which takes its turn in the same roun
         text
     }
 
-    /// A row for each group, a column for each method that is known best.
-    fn in_short(&self) -> Table {
-        let methods = || {
-            self.methods().map(|(method, _)| method).filter(|method| !LESS_KNOWN.contains(method))
-        };
-        let mut table =
-            Table::new(&std::iter::once("rays and spheres").chain(methods()).collect::<Vec<_>>());
+    /// The methods that are known best.
+    fn well_known(&self) -> impl Iterator<Item = &'static str> {
+        self.methods().map(|(method, _)| method).filter(|method| !LESS_KNOWN.contains(method))
+    }
+
+    /// A number for each group and each of the methods that are known best.
+    fn in_short(&self, number: impl Fn(Overall) -> String) -> Table {
+        let heads = std::iter::once("rays and spheres").chain(self.well_known());
+        let mut table = Table::new(&heads.collect::<Vec<_>>());
         for group in &GROUPS {
-            let cells = methods().map(|method| {
-                let overall = self.overall(group, method);
-                let (wrong, ulps) = (count(overall.wrong), ulps(overall.worst));
-                if overall.correctly_rounded {
-                    format!("**0 wrong, {ulps} ✓**, {:.1} ns", overall.predicted)
-                } else {
-                    format!("{wrong} wrong, {ulps} ulp, {:.1} ns", overall.predicted)
-                }
-            });
+            let cells = self.well_known().map(|method| number(self.overall(group, method)));
             table.row(std::iter::once(group.name.to_owned()).chain(cells).collect::<Vec<_>>());
         }
         table
@@ -384,14 +378,21 @@ fn in_short(parts: &[Part]) -> String {
     if !prices.is_empty() {
         let _ = writeln!(text, "{}\n\n{}", PRICES, price::in_short(&prices));
     }
-    for part in parts {
+    for Part { precision, accuracy_cases, .. } in parts {
         let _ = writeln!(
             text,
-            "First root ahead of one {} ray on one sphere, {} cases a family: wrong decisions in a million, worst error in \
-ulps, and nanoseconds with branches predicted; ✓ is every decision right and every root correctly rounded.\n\n{}",
-            part.precision,
-            part.accuracy_cases,
-            part.in_short()
+            "The first root ahead of one {precision} ray on one sphere, {accuracy_cases} cases a family.\n"
+        );
+    }
+    for part in parts {
+        let wrong = part.in_short(|overall| count(overall.wrong));
+        let time = part.in_short(|overall| format!("{:.1}", overall.predicted));
+        let error = part.in_short(|overall| worst(overall.worst, overall.correctly_rounded));
+        let _ = writeln!(
+            text,
+            "Wrong hits or misses in a million, {precision}:\n\n{wrong}\nNanoseconds, branches predicted, \
+{precision}:\n\n{time}\nWorst error in ulps (✓: every root correctly rounded, and no decision wrong), {precision}:\n\n{error}",
+            precision = part.precision,
         );
     }
     text

@@ -8,15 +8,18 @@ use lexopt::prelude::{Long, Short};
 
 use crate::command_line::whole_number;
 
-pub(crate) const USAGE: &str = "usage: molecule [--pick X,Y] [--beside-textbook] [--distance RADII] [--zoom FACTOR] \
-[--width 1..16384] [--height 1..16384] [--output FILE.png]";
+pub(crate) const USAGE: &str = "usage: molecule [--pick X,Y] [--beside-textbook] [--from-afar] [--distance RADII] \
+[--zoom FACTOR] [--width 1..16384] [--height 1..16384] [--output FILE.png]";
 
 /// A parsed command line.
+#[derive(Clone)]
 pub(crate) struct Arguments {
     /// The pixel below which an atom is to be named, instead of a picture.
     pub(crate) pick: Option<[f32; 2]>,
     /// Whether to draw the same picture by the textbook's formula beside the other.
     pub(crate) beside_textbook: bool,
+    /// Whether to count hidden atoms from far away, instead of a picture.
+    pub(crate) from_afar: bool,
     /// How far the eye is from the middle of the molecule, in radii of a carbon atom.
     pub(crate) distance: f32,
     /// How many times the picture is enlarged.
@@ -31,6 +34,7 @@ pub(crate) fn parse(mut parser: Parser) -> Result<Option<Arguments>, lexopt::Err
     let mut arguments = Arguments {
         pick: None,
         beside_textbook: false,
+        from_afar: false,
         distance: 3_000.0,
         zoom: 1.0,
         width: 800,
@@ -41,6 +45,7 @@ pub(crate) fn parse(mut parser: Parser) -> Result<Option<Arguments>, lexopt::Err
         match argument {
             Long("pick") => arguments.pick = Some(parser.value()?.parse_with(pixel)?),
             Long("beside-textbook") => arguments.beside_textbook = true,
+            Long("from-afar") => arguments.from_afar = true,
             Long("distance") => arguments.distance = parser.value()?.parse()?,
             Long("zoom") => arguments.zoom = parser.value()?.parse()?,
             Long("width") => arguments.width = whole_number(&mut parser, 1..=16_384)?,

@@ -62,6 +62,11 @@ impl Viewer {
         })
     }
 
+    /// Returns the rays of the pixels.
+    pub(crate) fn rays(&self) -> impl Iterator<Item = Ray> {
+        self.camera.rays(self.width.into(), self.height.into())
+    }
+
     /// Draws the picture with the hits of `nearest`.
     pub(crate) fn picture(&self, nearest: impl Fn(&Ray) -> Option<(usize, Hit)> + Sync) -> Picture {
         /// So many rays a pixel, in each direction.

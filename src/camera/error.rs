@@ -3,7 +3,8 @@
 use core::error::Error;
 use core::fmt::{Display, Formatter, Result};
 
-/// The error type of the constructors of [`Frame`](crate::Frame) and [`Camera`](crate::Camera): which argument is invalid, and why.
+/// The error type of the constructors of [`Frame`](crate::Frame) and [`Camera`](crate::Camera): which argument is invalid, and
+/// why.
 ///
 /// If several arguments are invalid, the error is about one of them.
 ///
@@ -42,6 +43,23 @@ pub enum CameraError {
     FovOutOfRange,
     /// The aspect ratio, width over height, is zero or negative.
     AspectNotPositive,
+    /// The last row of the view matrix is not (0, 0, 0, 1), as it is of a rotation and a translation. The matrix may be
+    /// transposed, or multiplied by a projection.
+    ViewMatrixProjects,
+    /// The view matrix scales: of the vectors in its first three rows and columns, a row is not of length 1.
+    ViewMatrixScales,
+    /// The view matrix shears: of the vectors in its first three rows and columns, two rows are not at a right angle.
+    ViewMatrixShears,
+    /// The last row of the projection matrix is neither (0, 0, -1, 0) nor (0, 0, 1, 0), as it is of a perspective projection, nor
+    /// (0, 0, 0, 1), as it is of an orthographic one. The matrix may be transposed, or multiplied by a view.
+    ProjectionMatrixUnknown,
+    /// The projection matrix rotates or shears the image, or moves the eye: its x or y is not a scale and an offset of the x or y
+    /// of view space.
+    ProjectionMatrixSkews,
+    /// The projection matrix mirrors the image, left to right.
+    ProjectionMatrixMirrors,
+    /// The projection matrix is flat: it maps every point to the same x, or to the same y.
+    ProjectionMatrixFlat,
 }
 
 /// An argument of the constructors of [`Frame`](crate::Frame) and [`Camera`](crate::Camera), in a [`CameraError`].
@@ -71,6 +89,10 @@ pub enum CameraArgument {
     FovY,
     /// `aspect`: the aspect ratio, width over height.
     Aspect,
+    /// `view_matrix`: the matrix from world space to view space.
+    ViewMatrix,
+    /// `projection_matrix`: the matrix from view space to clip space.
+    ProjectionMatrix,
 }
 
 impl Display for CameraError {
@@ -85,6 +107,17 @@ impl Display for CameraError {
             Self::DistanceNotPositive => "the camera's distance to the view plane is not positive",
             Self::FovOutOfRange => "the camera's field of view is not between 0 and π",
             Self::AspectNotPositive => "the camera's aspect is not positive",
+            Self::ViewMatrixProjects => "the last row of the camera's view matrix is not (0, 0, 0, 1)",
+            Self::ViewMatrixScales => "the camera's view matrix scales: a row is not of length 1",
+            Self::ViewMatrixShears => "the camera's view matrix shears: two rows are not at a right angle",
+            Self::ProjectionMatrixUnknown => {
+                "the last row of the camera's projection matrix is neither (0, 0, -1, 0), (0, 0, 1, 0) nor (0, 0, 0, 1)"
+            }
+            Self::ProjectionMatrixSkews => {
+                "the camera's projection matrix rotates or shears the image, or moves the eye"
+            }
+            Self::ProjectionMatrixMirrors => "the camera's projection matrix mirrors the image",
+            Self::ProjectionMatrixFlat => "the camera's projection matrix is flat",
         })
     }
 }
@@ -101,6 +134,8 @@ impl Display for CameraArgument {
             Self::Distance => "distance",
             Self::FovY => "fov_y",
             Self::Aspect => "aspect",
+            Self::ViewMatrix => "view_matrix",
+            Self::ProjectionMatrix => "projection_matrix",
         })
     }
 }

@@ -12,7 +12,8 @@ use crate::{CameraArgument, CameraError, Vector, ViewRect};
 
 /// A camera frame: the position of a camera, the eye e, and its orientation, an orthonormal basis.
 ///
-/// U points to the right of the image, V up, and W backwards, against the direction of view. A [`Camera`] is a frame with a view
+/// U points to the right of the image, V up, and W backwards, against the direction of view. U × V is W, except in the frame of a
+/// view matrix that is left-handed or mirrors, where it is -W. A [`Camera`] is a frame with a view
 /// rectangle and a projection. Frames create cameras, and [`Camera::frame`] returns the frame without losing a digit.
 ///
 /// ```
@@ -50,8 +51,8 @@ use crate::{CameraArgument, CameraError, Vector, ViewRect};
 /// # }
 /// ```
 ///
-/// A camera that can turn all the way over, on a gimbal or in an orbit, needs an up vector of its own, which is rotated along with
-/// the direction of view.
+/// A camera that can turn all the way over, on a gimbal or in an orbit, needs an up vector of its own, which is rotated along
+/// with the direction of view.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Frame<V: Vector = glam::Vec3> {
     pub(crate) eye: DVec3,
@@ -64,8 +65,8 @@ pub struct Frame<V: Vector = glam::Vec3> {
 impl<V: Vector> Frame<V> {
     /// Creates the frame of a camera at `eye` that looks at `target`, with `up` upwards in the image.
     ///
-    /// Only the direction from the eye to `target` counts. If this direction is known, use [`look_to`](Self::look_to): the sum of the
-    /// eye and the direction would be rounded.
+    /// Only the direction from the eye to `target` counts. If this direction is known, use [`look_to`](Self::look_to): the sum of
+    /// the eye and the direction would be rounded.
     ///
     /// ```
     /// use eyeray::Frame;
@@ -93,8 +94,8 @@ impl<V: Vector> Frame<V> {
 
     /// Creates the frame of a camera at `eye` that looks along `direction`, with `up` upwards in the image.
     ///
-    /// The direction need not be a unit vector. It is never added to the eye, so it keeps all its digits, however far the camera is
-    /// from the world's origin.
+    /// The direction need not be a unit vector. It is never added to the eye, so it keeps all its digits, however far the camera
+    /// is from the world's origin.
     ///
     /// ```
     /// use eyeray::Frame;
@@ -212,8 +213,8 @@ impl<V: Vector> Frame<V> {
         self.camera(view.map(Into::into), Projection::Perspective { distance })
     }
 
-    /// Creates a perspective camera with this frame, the vertical field of view `fov_y`, in radians, and the aspect ratio `aspect`,
-    /// width over height.
+    /// Creates a perspective camera with this frame, the vertical field of view `fov_y`, in radians, and the aspect ratio
+    /// `aspect`, width over height.
     ///
     /// The view rectangle is centered, at distance 1: its top is `tan(fov_y / 2)`, its right `aspect` times that.
     ///

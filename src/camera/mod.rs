@@ -14,16 +14,22 @@
 //! | `basis` | U, V and W from the direction of view and the up vector |
 //! | `view_rect` | the view rectangle |
 //! | `pixels` | from a pixel to (u, v) |
+//! | `image` | the rays of an image's pixels |
 //! | `rays` | an iterator over the rays of all pixels |
+//! | `tiles` | an iterator over the tiles of an image |
+//! | `matrices` | from view and projection matrices, and to view matrices |
 //! | `projection` | from a point of the scene to (u, v) |
 //! | `error` | the error type |
 
 mod basis;
 mod error;
 mod frame;
+mod image;
+mod matrices;
 mod pixels;
 mod projection;
 mod rays;
+mod tiles;
 mod view_rect;
 
 use glam::{DVec2, DVec3};
@@ -31,6 +37,7 @@ use glam::{DVec2, DVec3};
 pub use error::{CameraArgument, CameraError};
 pub use frame::Frame;
 pub use rays::Rays;
+pub use tiles::{Tile, Tiles};
 pub use view_rect::ViewRect;
 
 use crate::{Ray, Scalar, Vector};
@@ -42,12 +49,12 @@ use pixels::Axis;
 /// intersect with the scene. Projections are used for labels and markers: see [`project_to_pixel`](Self::project_to_pixel).
 ///
 /// A camera has a [`Frame`]: the eye e and an orthonormal [basis](Self::basis), with U to the right, V up, and W backwards,
-/// against the direction of view. A point (u, v) of the view plane is u along U and v along V from the point straight ahead of the
-/// eye. The image shows the part of this plane inside the [view rectangle](ViewRect).
+/// against the direction of view. A point (u, v) of the view plane is u along U and v along V from the point straight ahead of
+/// the eye. The image shows the part of this plane inside the [view rectangle](ViewRect).
 ///
-/// - **Orthographic**: the eye is in the view plane. Each ray starts at a point s of this plane, and all rays are parallel. Objects
-///   behind the view plane are not visible. Moving the eye back, against the direction of view, makes them visible, and changes
-///   nothing else in the image.
+/// - **Orthographic**: the eye is in the view plane. Each ray starts at a point s of this plane, and all rays are parallel.
+///   Objects behind the view plane are not visible. Moving the eye back, against the direction of view, makes them visible, and
+///   changes nothing else in the image.
 /// - **Perspective**: the view plane is ahead of the eye, at a distance, the focal length. Each ray starts at the eye and
 ///   goes through a point s of this plane. Its direction is not a unit vector: `t = 1` is the view plane.
 ///
@@ -78,13 +85,13 @@ use pixels::Axis;
 /// # }
 /// ```
 ///
-/// The three constructors take a target to look at. For a direction of view, or for several cameras with the same frame, start
-/// with a [`Frame`].
+/// The first three constructors take a target to look at. For a direction of view, or for several cameras with the same frame,
+/// start with a [`Frame`]. [`from_matrices`](Self::from_matrices) takes the view and the projection matrix of a renderer.
 ///
 /// # Depth of field
 ///
-/// With the view plane at the focus distance, a thin lens takes a few lines, because each ray passes its point of the view plane at
-/// `t = 1`, wherever on the lens it starts:
+/// With the view plane at the focus distance, a thin lens takes a few lines, because each ray passes its point of the view plane
+/// at `t = 1`, wherever on the lens it starts:
 ///
 /// ```
 /// use eyeray::{Camera, Ray};
@@ -123,10 +130,28 @@ use pixels::Axis;
 /// # }
 /// ```
 ///
+/// # Logical pixels
+///
+/// The position of a mouse is often given in logical pixels, and the size of the window, too, which then need not be a whole
+/// number. The position divided by the size is a pixel of an image of 1 by 1:
+///
+/// ```
+/// # use eyeray::{Camera, CameraError, ViewRect};
+/// # use glam::{Vec3, vec2};
+/// # fn main() -> Result<(), CameraError> {
+/// # let view = ViewRect::centered(4.0, 3.0);
+/// # let camera = Camera::perspective(Vec3::Z, Vec3::ZERO, Vec3::Y, view, 1.0)?;
+/// let (cursor, size) = (vec2(266.75, 600.25), vec2(1067.0, 800.333_3));
+/// let ray = camera.pixel_ray(cursor / size, 1, 1);
+/// # assert!((ray.direction - camera.ray(vec2(-1.0, -0.75)).direction).length() < 1e-6);
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Which precision
 ///
-/// `f32` is precise enough within some thousand times the size of the scene's smallest detail from the world's origin. There is no
-/// `f32` between 10⁷ and 10⁷ + 1: for an orthographic camera there, with pixels of a millimeter, the rays of a thousand pixels
+/// `f32` is precise enough within some thousand times the size of the scene's smallest detail from the world's origin. There is
+/// no `f32` between 10⁷ and 10⁷ + 1: for an orthographic camera there, with pixels of a millimeter, the rays of a thousand pixels
 /// start at the same point. Use [`DVec3`](glam::DVec3) for such cameras, or move the world's origin to the camera.
 /// `Camera::<DVec3>::from` converts a camera to `f64`, exactly.
 ///
@@ -142,6 +167,9 @@ use pixels::Axis;
 /// - With [`DVec3`](glam::DVec3) the direction is within 7 ulp of its length, and the origin within
 ///   6 · 2⁻⁵³ (|e| + |u| + |v|).
 ///
+/// A sum or a product that leaves the range of `f64` on the way is outside of these bounds: with `DVec3`, a pixel narrower than
+/// 2⁻⁹⁰⁰, or a coordinate beyond 2¹⁰²⁰.
+///
 /// For `pixel_ray` this holds in images of up to 2²⁴ pixels a side and as far around them, where the direction, or
 /// |e| + |u| + |v|, is at least an eighth of a pixel long. At the center of a pixel it holds however short they are, so that the
 /// middle of a centered view is exactly straight ahead.
@@ -156,8 +184,8 @@ use pixels::Axis;
 ///
 /// `cargo test --test camera accuracy` compares all of them with exact integer arithmetic.
 ///
-/// A camera uses only sums, products, quotients and square roots, so it is the same on every machine. The exception is the tangent
-/// of [`perspective_fov`](Self::perspective_fov), which is the same on every machine with the feature `libm`.
+/// A camera uses only sums, products, quotients and square roots, so it is the same on every machine. The exception is the
+/// tangent of [`perspective_fov`](Self::perspective_fov), which is the same on every machine with the feature `libm`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera<V: Vector = glam::Vec3> {
     pub(crate) frame: Frame<V>,
@@ -211,9 +239,9 @@ impl<V: Vector> Camera<V> {
     /// Creates a perspective camera at `eye` that looks at `target`, with `up` upwards in the image, through a view rectangle at
     /// `distance`, the focal length.
     ///
-    /// Short for [`Frame::look_at`] and [`Frame::perspective`]. Only the direction from the eye to `target` counts, which need not be
-    /// in the view plane, and only the direction of `up`, which need not be at a right angle to the view. [`Frame`] says what to pass
-    /// as `up` when looking straight down.
+    /// Short for [`Frame::look_at`] and [`Frame::perspective`]. Only the direction from the eye to `target` counts, which need
+    /// not be in the view plane, and only the direction of `up`, which need not be at a right angle to the view. [`Frame`] says
+    /// what to pass as `up` when looking straight down.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};
@@ -244,8 +272,8 @@ impl<V: Vector> Camera<V> {
         Frame::look_at(eye, target, up)?.perspective(view, distance)
     }
 
-    /// Creates a perspective camera at `eye` that looks at `target`, with `up` upwards in the image, with the vertical field of view
-    /// `fov_y`, in radians, and the aspect ratio `aspect`, width over height.
+    /// Creates a perspective camera at `eye` that looks at `target`, with `up` upwards in the image, with the vertical field of
+    /// view `fov_y`, in radians, and the aspect ratio `aspect`, width over height.
     ///
     /// Short for [`Frame::look_at`] and [`Frame::perspective_fov`], where the view rectangle and the tangent are described.
     ///
@@ -339,12 +367,12 @@ impl<V: Vector> Camera<V> {
 
     /// Returns the eye ray through a point of an image of `width` by `height` pixels that shows the view rectangle.
     ///
-    /// The point (x, y) is given in pixels, rightwards and downwards from the top left corner of the image: the center of the first
-    /// pixel is (0.5, 0.5), and the bottom right corner is (`width`, `height`). In the view plane it is
+    /// The point (x, y) is given in pixels, rightwards and downwards from the top left corner of the image: the center of the
+    /// first pixel is (0.5, 0.5), and the bottom right corner is (`width`, `height`). In the view plane it is
     /// `u = left + (right - left) x / width` and `v = top - (top - bottom) y / height`.
     ///
-    /// The point may be anywhere inside a pixel, for antialiasing, or outside the image. A `width` or `height` of 0 counts as 1. If x
-    /// or y is NaN or infinite, the ray is not finite, and hits nothing.
+    /// The point may be anywhere inside a pixel, for antialiasing, or outside the image. A `width` or `height` of 0 counts as 1.
+    /// If x or y is NaN or infinite, the ray is not finite, and hits nothing.
     ///
     /// For picking, pass the position of the mouse, and intersect the ray with the scene.
     ///
@@ -386,8 +414,8 @@ impl<V: Vector> Camera<V> {
     /// Returns an iterator over the rays through the centers of all pixels of an image, row by row from the top, each row from
     /// the left.
     ///
-    /// The ray of the pixel in column i and row j is the same as [`pixel_ray`](Self::pixel_ray) at (i + 0.5, j + 0.5), and takes less
-    /// time.
+    /// The ray of the pixel in column i and row j is the same as [`pixel_ray`](Self::pixel_ray) at (i + 0.5, j + 0.5), and takes
+    /// less time.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};
@@ -408,6 +436,46 @@ impl<V: Vector> Camera<V> {
         Rays::new(self, width, height)
     }
 
+    /// Returns an iterator over the tiles of an image of `width` by `height` pixels: squares of `side` by `side` pixels, row by
+    /// row from the top, each row from the left.
+    ///
+    /// Tiles are used to ask a collection of spheres for the hits of many rays at once, which takes less time where the rays lie
+    /// together, and to share an image among threads. At the right and at the bottom edge of the image, tiles have the pixels
+    /// that are left. A `side` of 0 counts as 1.
+    ///
+    /// A side of 8 gives 64 rays a tile. In larger tiles, too, every 64 rays lie together: see [`Tile::pixels`].
+    ///
+    /// ```
+    /// use eyeray::{Camera, Hittable, Ray, Sphere};
+    /// use glam::Vec3;
+    ///
+    /// # fn main() -> Result<(), eyeray::CameraError> {
+    /// let (width, height) = (20, 12);
+    /// let camera = Camera::perspective_fov(Vec3::Z * 3.0, Vec3::ZERO, Vec3::Y, 0.9, 5.0 / 3.0)?;
+    /// let sphere = Sphere::new(Vec3::ZERO, 1.0);
+    ///
+    /// let mut depths = vec![f32::INFINITY; 20 * 12];
+    /// let mut rays = [Ray::default(); 64];
+    /// for tile in camera.tiles(width, height, 8) {
+    ///     let count = tile.rays().len();
+    ///     for (place, ray) in rays.iter_mut().zip(tile.rays()) {
+    ///         *place = ray;
+    ///     }
+    ///     for ((x, y), ray) in tile.pixels().zip(&rays[..count]) {
+    ///         if let Some(hit) = sphere.intersect(ray, 0.0..f32::INFINITY) {
+    ///             depths[(y * width + x) as usize] = hit.t;
+    ///         }
+    ///     }
+    /// }
+    /// assert!(depths[6 * 20 + 10] < 3.0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[inline]
+    pub fn tiles(&self, width: u32, height: u32, side: u32) -> Tiles<V> {
+        Tiles::new(self, width, height, side)
+    }
+
     /// Returns the point (u, v) of the view plane whose eye ray reaches `point`: the inverse of [`ray`](Self::ray).
     ///
     /// Returns `None` if no eye ray reaches the point:
@@ -416,8 +484,8 @@ impl<V: Vector> Camera<V> {
     /// - for an orthographic camera, if it is behind the view plane or in it, where rays start but have `t = 0`;
     /// - if the point is not finite, or u or v would not be.
     ///
-    /// Whether a point is ahead of the eye is decided in `f64`. If its distance from the plane through the eye, at right angles to the
-    /// view, is less than 2⁻⁵⁰ of its distance from the eye, rounding may decide either way.
+    /// Whether a point is ahead of the eye is decided in `f64`. If its distance from the plane through the eye, at right angles
+    /// to the view, is less than 2⁻⁵⁰ of its distance from the eye, rounding may decide either way.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};
@@ -441,8 +509,8 @@ impl<V: Vector> Camera<V> {
     /// As there, x and y are in pixels from the top left corner. The point is inside the image if and only if 0 ≤ x < `width` and
     /// 0 ≤ y < `height`. Whether something hides it can be found with a shadow ray, or by intersecting the `pixel_ray` there.
     ///
-    /// Returns `None` in the cases of [`project`](Self::project), with x and y instead of u and v. A `width` or `height` of 0 counts
-    /// as 1.
+    /// Returns `None` in the cases of [`project`](Self::project), with x and y instead of u and v. A `width` or `height` of 0
+    /// counts as 1.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};
@@ -461,20 +529,15 @@ impl<V: Vector> Camera<V> {
     #[must_use]
     #[doc(alias("world_to_screen", "world_to_viewport", "world_to_pixel"))]
     pub fn project_to_pixel(&self, point: V, width: u32, height: u32) -> Option<V::Vec2> {
-        let DVec2 { x: u, y: v } = self.project_in_f64(point)?;
-        let view = &self.view;
-        // Of the view in f64: rounded to the precision of V, its sides would move by a part of a pixel.
-        let x = (u - view.left) / view.width() * f64::from(width.max(1));
-        let y = (view.top - v) / view.height() * f64::from(height.max(1));
-        finite::<V>(DVec2::new(x, y))
+        finite::<V>(self.project_to_pixel_in_f64(point, width, height)?)
     }
 
     /// Returns the depth of a point: its distance ahead of the eye along -W, in the units of the scene.
     ///
     /// The depth is positive ahead of the eye, zero beside it, and negative behind it. It is not finite if the point is not.
     ///
-    /// The eye ray of the point reaches it at `t = depth / distance` for a perspective camera, and at `t = depth` for an orthographic
-    /// one.
+    /// The eye ray of the point reaches it at `t = depth / distance` for a perspective camera, and at `t = depth` for an
+    /// orthographic one.
     ///
     /// ```
     /// use eyeray::{Camera, ViewRect};

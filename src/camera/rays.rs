@@ -6,20 +6,43 @@ use core::ops::Range;
 use glam::DVec3;
 
 use super::Camera;
-use super::pixels::Axis;
+use super::image::Image;
 use crate::{Ray, Vector};
 
 /// An iterator over the rays of an image, row by row: see [`Camera::rays`].
 ///
 /// The length is exact, unless it exceeds `usize` on a target of less than 64 bits: then `len` is `usize::MAX`. `nth`, `last` and
-/// `count` take constant time, so that `skip` gives each thread its own rows.
+/// `count` take constant time, so that `skip` gives each thread its own rows:
+///
+/// ```
+/// use eyeray::{Camera, Hittable, Sphere};
+/// use glam::{Vec3, vec3};
+/// use rayon::prelude::*;
+///
+/// # fn main() -> Result<(), eyeray::CameraError> {
+/// let camera = Camera::perspective_fov(vec3(0.0, 0.0, 5.0), Vec3::ZERO, Vec3::Y, 0.8, 1.5)?;
+/// // Any shapes, for many threads.
+/// let scene: Vec<Box<dyn Hittable + Send + Sync>> = vec![Box::new(Sphere::new(Vec3::ZERO, 1.0))];
+///
+/// const WIDTH: usize = 60;
+/// let mut distances = vec![f32::INFINITY; WIDTH * 40];
+/// distances.par_chunks_mut(WIDTH).enumerate().for_each(|(row, distances)| {
+///     for (distance, ray) in distances.iter_mut().zip(camera.rays(60, 40).skip(row * WIDTH)) {
+///         if let Some(hit) = scene.intersect(&ray, 0.0..f32::INFINITY) {
+///             *distance = hit.t;
+///         }
+///     }
+/// });
+/// assert!(distances[0] == f32::INFINITY && distances[20 * WIDTH + 30] < 5.0);
+/// # Ok(())
+/// # }
+/// ```
+///
+/// rayon's `par_bridge` would lose the order of the rays.
 #[derive(Clone, Debug)]
 #[must_use = "iterators are lazy and do nothing unless consumed"]
 pub struct Rays<V: Vector = glam::Vec3> {
-    camera: Camera<V>,
-    common: V,
-    columns: Axis,
-    rows: Axis,
+    image: Image<V>,
     width: u32,
     /// What is left of the pixels, counted row by row.
     pixels: Range<u64>,
@@ -32,12 +55,8 @@ pub struct Rays<V: Vector = glam::Vec3> {
 impl<V: Vector> Rays<V> {
     #[inline]
     pub(super) fn new(camera: &Camera<V>, width: u32, height: u32) -> Self {
-        let [columns, rows] = camera.axes(width, height);
         let mut rays = Self {
-            camera: *camera,
-            common: camera.common(),
-            columns,
-            rows,
+            image: Image::new(camera, width, height),
             width,
             pixels: 0..u64::from(width) * u64::from(height),
             column: 0,
@@ -53,19 +72,7 @@ impl<V: Vector> Rays<V> {
     fn begin_row(&mut self, row: u32) {
         self.column = 0;
         self.row = row;
-        self.in_row = self.row_of_rays(row);
-    }
-
-    /// What the rays of a row have in common.
-    #[inline]
-    fn row_of_rays(&self, row: u32) -> DVec3 {
-        self.camera.row(self.rows.at(f64::from(row) + 0.5))
-    }
-
-    /// The ray of a column in such a row.
-    #[inline]
-    fn ray(&self, column: u32, in_row: DVec3) -> Ray<V> {
-        self.camera.ray_in_row(self.common, in_row, self.columns.at_center(f64::from(column) + 0.5))
+        self.in_row = self.image.row(row);
     }
 
     /// The column and the row of a pixel. There must be one.
@@ -79,7 +86,7 @@ impl<V: Vector> Rays<V> {
     /// The ray of a pixel, wherever it is.
     fn ray_of(&self, index: u64) -> Ray<V> {
         let (column, row) = self.place(index);
-        self.ray(column, self.row_of_rays(row))
+        self.image.ray(column, self.image.row(row))
     }
 }
 
@@ -92,7 +99,7 @@ impl<V: Vector> Iterator for Rays<V> {
         if self.column == self.width {
             self.begin_row(self.row + 1);
         }
-        let ray = self.ray(self.column, self.in_row);
+        let ray = self.image.ray(self.column, self.in_row);
         self.column += 1;
         Some(ray)
     }
@@ -102,7 +109,7 @@ impl<V: Vector> Iterator for Rays<V> {
         let (column, row) = self.place(index);
         self.begin_row(row);
         self.column = column + 1;
-        Some(self.ray(column, self.in_row))
+        Some(self.image.ray(column, self.in_row))
     }
 
     #[inline]

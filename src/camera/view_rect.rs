@@ -6,9 +6,9 @@ use crate::Scalar;
 ///
 #[doc = include_str!("../diagrams/view_rect.svg")]
 ///
-/// The sides are given in the units of the scene, along the camera's U (to the right) and V (up), from the point of the view plane
-/// straight ahead of the eye. The rectangle need not be centered there, nor contain that point: an off-center rectangle is used
-/// for shifted views, as in architectural photographs, for stereo, and for rendering an image in tiles.
+/// The sides are given in the units of the scene, along the camera's U (to the right) and V (up), from the point of the view
+/// plane straight ahead of the eye. The rectangle need not be centered there, nor contain that point: an off-center rectangle is
+/// used for shifted views, as in architectural photographs, for stereo, and for rendering an image in tiles.
 ///
 /// In S. Marschner's CS4620 lecture 6 the sides are called l, r, b and t.
 ///
@@ -23,8 +23,8 @@ use crate::Scalar;
 ///
 /// # From a camera matrix
 ///
-/// A calibrated camera is often given by its focal lengths `fx` and `fy` and its principal point (`cx`, `cy`), all in pixels.
-/// Its view rectangle is in the plane at distance 1. In the usual convention, which is that of `OpenCV`, the *center* of the first
+/// A calibrated camera is often given by its focal lengths `fx` and `fy` and its principal point (`cx`, `cy`), all in pixels. Its
+/// view rectangle is in the plane at distance 1. In the usual convention, which is that of `OpenCV`, the *center* of the first
 /// pixel is (0, 0), half a pixel from the corner of the image, where this crate's pixel coordinates begin:
 ///
 /// ```

@@ -137,7 +137,8 @@ impl<V: Vector> WrittenCamera<V, V::Scalar> {
     }
 }
 
-/// Whether these are orthonormal vectors with u × v = w, up to the rounding of their coordinates by a writer and a reader.
+/// Whether these are orthonormal vectors with u × v = w or, from a left-handed view matrix, -w, up to the rounding of their coordinates
+/// by a writer and a reader.
 fn is_basis([u, v, w]: [DVec3; 3]) -> bool {
     /// With h = 2⁻⁵³, each of the vectors is off by at most h from the rounding of its coordinates, and by 4 h where a reader of
     /// decimal numbers rounds four times (the digits, a power of ten, their quotient, the decimal itself): together 15 h. The
@@ -145,6 +146,7 @@ fn is_basis([u, v, w]: [DVec3; 3]) -> bool {
     const TOLERANCE: f64 = 9.0 * f64::EPSILON;
     // False if there is a NaN.
     let equal = |a: DVec3, b: DVec3| (a - b).abs().cmple(DVec3::splat(TOLERANCE)).all();
+    let u = if u.cross(v).dot(w) < 0.0 { -u } else { u };
     // Three zero vectors satisfy the equations as well.
     equal(u.cross(v), w) && equal(v.cross(w), u) && equal(w.cross(u), v) && u != DVec3::ZERO
 }
@@ -159,9 +161,9 @@ impl Display for ReadError {
     fn fmt(&self, f: &mut Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Camera(error) => error.fmt(f),
-            Self::Basis => f.write_str(
-                "the camera's basis is not three unit vectors at right angles, right-handed",
-            ),
+            Self::Basis => {
+                f.write_str("the camera's basis is not three unit vectors at right angles")
+            }
         }
     }
 }

@@ -22,8 +22,9 @@ use crate::geometric::ClosestApproach;
 mod tests;
 
 /// Of the discriminant, in r² a + M (M + P); the eighth part for the rounding of this bound.
+/// Proved in `tests/proofs/bounded.g`.
 const DISCRIMINANT_ERROR: f64 = 8.0 * U;
-/// Of the discriminant too, in P².
+/// Of the discriminant too, in P². Proved in `tests/proofs/bounded.g`.
 const MOMENT_ERROR_SQUARED: f64 = 10.0 * U * U;
 
 /// The chord by the closest approach, with the error of its discriminant.

@@ -129,6 +129,8 @@ pub(crate) trait Crossings {
 pub(crate) enum Question {
     /// The first crossing with a finite t > 0 in the range.
     Nearest(Range<f64>),
+    /// The far crossing, if its t is finite and above 0.
+    Exit,
     /// One root.
     Root(Side),
     /// Both roots.
@@ -138,6 +140,7 @@ pub(crate) enum Question {
 /// The answer to each question.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Answer {
+    /// To [`Question::Exit`], too.
     Nearest(Found),
     /// Ascending; zero where only the other root was asked.
     Roots([f64; 2]),
@@ -160,19 +163,28 @@ impl Question {
     pub(crate) fn ask(&self, crossings: &mut impl Crossings) -> Verdict<Answer> {
         let mut roots = [0.0; 2];
         for (side, t) in [Side::Near, Side::Far].into_iter().zip(&mut roots) {
-            if matches!(self, Self::Root(wanted) if *wanted != side) {
+            let is_asked = match self {
+                Self::Root(wanted) => *wanted == side,
+                Self::Exit => side == Side::Far,
+                Self::Nearest(_) | Self::Both => true,
+            };
+            if !is_asked {
                 continue;
             }
             let Some((rounded, root)) = crossings.root(side) else { return Verdict::Doubt };
             *t = rounded;
-            let Self::Nearest(range) = self else { continue };
-            if rounded > 0.0 && rounded < f64::INFINITY && range.contains(&rounded) {
+            let is_in_range = match self {
+                Self::Nearest(range) => range.contains(&rounded),
+                Self::Exit => true,
+                Self::Root(_) | Self::Both => continue,
+            };
+            if rounded > 0.0 && rounded < f64::INFINITY && is_in_range {
                 let found = crossings.hit(side, rounded, root);
                 return found.map_or(Verdict::Doubt, |found| Verdict::Hit(Answer::Nearest(found)));
             }
         }
         match self {
-            Self::Nearest(_) => Verdict::Miss,
+            Self::Nearest(_) | Self::Exit => Verdict::Miss,
             Self::Root(_) | Self::Both => Verdict::Hit(Answer::Roots(roots)),
         }
     }

@@ -39,6 +39,23 @@
 //! By the bound of the first step with [`CLEAR`], |τ| < 2⁻³²·⁸ t, and s > 2⁻¹⁷ √(a m), so that a t / s < 2¹⁸. So what the plain
 //! slope w·d errs by, 4 u r |d| / s < 2⁻³⁴ of itself, is 2⁻⁶⁶ of t; and the term of third order that is left out, τ (a τ / s)² /
 //! 2, is below 2⁻⁶³·³ of t.
+//!
+//! **The far root** of a chord whose near root t₁ is accepted, (h + s) / a, is corrected by the same steps. As t₁² is at most the
+//! product of both roots, power / a, t₁ |d| ≤ √m; so s t₁ > [`CLEAR`] m gives s > 2⁻¹⁶ √(a m), which is more than is assumed above,
+//! and as s ≤ r |d|, √m < 2¹⁶ r. The far root itself has t |d| ≤ (|h| + s) / |d| ≤ 2 √m, and the bound of the first step. Whether
+//! (s t)² > 2⁻²⁰ r² m is tested of each root. So all that is said of f, w and τ holds of the far root, too.
+//!
+//! **Point and normal** of either root are where w, with d τ, leads. What that is off by is at most the smaller of
+//!
+//! ```text
+//! of t |d|, as above                            2⁻⁶²·⁴ t |d|
+//! of r, with √(a m) / s < 2¹⁶ and √m < 2¹⁶ r
+//!     f        2⁻⁷² r √m |d| / s                 2⁻⁵⁶ r
+//!     slope    |τ d| ≤ 10.5 u (√(a m) / s) √m, of which 4 u r |d| / s       2⁻⁶⁸ r
+//!     third order, |τ d| (a τ / s)² / 2, with a τ / s ≤ 10.5 u a m / s²     2⁻⁵³·⁸ r
+//! ```
+//!
+//! and 2⁻⁷⁴ √m < 2⁻⁵⁸ r of w: together less than 2⁻⁵³ r. From inside, √m is r, and all of these are smaller yet.
 
 use glam::DVec3;
 
@@ -58,16 +75,17 @@ pub(super) const CLEAR: f64 = 1.0 / 65536.0;
 /// The square of the least s t, in r² m.
 const CLEAR_OF_RESIDUAL: f64 = 1.0 / 1_048_576.0;
 
-/// Of t, in r √m / s: 2⁻⁷².
+/// Of t, in r √m / s: 2⁻⁷². Proved in `tests/proofs/halves.g`.
 const RESIDUAL_ERROR: f64 = U / 524_288.0;
 
-/// Of the slope w·d, in r |d|.
+/// Of the slope w·d, in r |d|. Proved in `tests/proofs/halves.g`.
 const SLOPE_ERROR: f64 = 4.0 * U;
 
-/// Of w, in √m: 2⁻⁷⁴.
+/// Of w, in √m: 2⁻⁷⁴. Proved in `tests/proofs/halves.g`.
 const OFFSET_ERROR: f64 = U / 2_097_152.0;
 
 /// How far off a corrected root may be, as a part of itself: 2⁻⁶², and half of that for all else.
+/// Proved in `tests/proofs/halves.g`.
 const ROOT_ERROR: f64 = U / 512.0 * 1.5;
 
 /// A vector as the sum of two, exactly.

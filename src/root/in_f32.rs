@@ -12,7 +12,7 @@ use super::halves;
 use super::plain::{self, Both, Nearest};
 use super::points::{self, Crossing, Near};
 use super::precision::Precision;
-use super::{both_carefully, integers, nearest_carefully, root_carefully, surface};
+use super::{both_carefully, exit_carefully, integers, nearest_carefully, root_carefully, surface};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::number::Triple;
@@ -363,6 +363,10 @@ impl Precision for Vec3 {
         } else {
             intersect_by_a_call::<D>(sphere, ray, range)
         }
+    }
+
+    fn exit_at_same_t(sphere: &Sphere, ray: &Ray) -> Option<Hit> {
+        Some(hit(sphere, ray, exit_carefully(&Line::new(sphere, ray), Format::F32)?))
     }
 
     #[inline(always)]

@@ -10,7 +10,7 @@ use super::format::Format;
 use super::halves::{self, Correction};
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully, integers, nearest_carefully, surface};
+use super::{both_carefully, exit_carefully, integers, nearest_carefully, surface};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::pair::LEAST_PAIR;
 use crate::float::sqrt;
@@ -161,6 +161,12 @@ impl Precision for DVec3 {
             }
         }
         let found = nearest_again(&Line::new(sphere, ray), range)?;
+        Some(hit(line, found.t, found.point, found.normal))
+    }
+
+    fn exit_at_same_t(sphere: &Sphere<Self>, ray: &Ray<Self>) -> Option<Hit<Self>> {
+        let line = Line::new(sphere, ray);
+        let found = exit_carefully(&line, Format::F64)?;
         Some(hit(line, found.t, found.point, found.normal))
     }
 

@@ -77,6 +77,12 @@ fn nearest_carefully(line: &Line, format: Format, range: Range<f64>) -> Option<F
     ask_carefully(line, format, &Question::Nearest(range))?.nearest()
 }
 
+/// Finds where the ray leaves, if t is finite and above 0 there. No plain step is asked: the two crossings may be very close.
+#[inline(always)]
+fn exit_carefully(line: &Line, format: Format) -> Option<Found> {
+    ask_carefully(line, format, &Question::Exit)?.nearest()
+}
+
 /// Finds both roots, ascending, where the plain steps leave a doubt.
 #[inline(always)]
 fn both_carefully(line: &Line, format: Format) -> Option<[f64; 2]> {

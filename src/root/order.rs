@@ -62,7 +62,6 @@ fn compare_at<V: Vector>(t: V::Scalar, ray: &Ray<V>, spheres: [Option<Sphere<V>>
     compare_known(ray, (a, a_side), (b, b_side))
 }
 
-#[allow(dead_code, reason = "until the iterator over crossings asks it")]
 /// Compares two crossings of one ray, which both exist: `Less` where the first comes before the second, `Equal` only where their
 /// exact roots are equal. The result does not depend on `t`, but takes less time where that is close to both.
 pub(crate) fn compare_crossings<V: Vector>(
@@ -112,10 +111,13 @@ impl<'a, V: Vector> Known<'a, V> {
     fn side_at(&self, ray: &Ray<V>, t: V::Scalar) -> Option<Side> {
         if let Some(nearby) = &self.nearby {
             let (t, above): (f64, f64) = (t.into(), next_above::<V>(t).into());
-            match nearby.side_within(above - t, is_power_of_two(t)) {
-                Within::Neither => return None,
-                Within::One(side) => return Some(side),
-                Within::Doubt => {}
+            // Of the largest number, the next float tells no ulp.
+            if above < f64::INFINITY {
+                match nearby.side_within(above - t, is_power_of_two(t)) {
+                    Within::Neither => return None,
+                    Within::One(side) => return Some(side),
+                    Within::Doubt => {}
+                }
             }
         }
         let [near, far] = self.sphere.roots(ray)?;

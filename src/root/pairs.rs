@@ -74,18 +74,18 @@ const SURE: f64 = 1024.0;
 /// And more than this part of P², 2⁻⁶⁴: then s > 2⁻³² P, and what h and the quotient err by, 12 u P, is below 2⁻¹⁷ s.
 const SURE_H: f64 = U / 2048.0;
 
-/// Of the discriminant from the closest approach, in a R², in a R |o| and in P².
+/// Of the discriminant from the closest approach, in a R², in a R |o| and in P². Proved in `tests/proofs/moved.g`.
 const MOVED_ERROR: f64 = 48.0 * V;
 const MOVED_REACH_ERROR: f64 = 320.0 * U * V;
 const MOVED_ALONG_ERROR: f64 = 1024.0 * U * V;
 
-/// Of w at the root, in r, and in √m.
+/// Of w at the root, in r, and in √m. Proved in `tests/proofs/pairs.g`.
 const OFFSET_ERROR: f64 = 4.0 * V;
 const OFFSET_REACH_ERROR: f64 = 32.0 * U * V;
-/// Of the root, in r² / s, and in r √m / s.
+/// Of the root, in r² / s, and in r √m / s. Proved in `tests/proofs/pairs.g`.
 const RESIDUAL_ERROR: f64 = 24.0 * V;
 const RESIDUAL_REACH_ERROR: f64 = 32.0 * U * V;
-/// Of the slope, in r |d|, and of the operations of the correction, in itself.
+/// Of the slope, in r |d|, and of the operations of the correction, in itself. Proved in `tests/proofs/pairs.g`.
 const SLOPE_ERROR: f64 = 5.0 * U;
 const CORRECTION_ERROR: f64 = 12.0 * U;
 /// Of the sum that the root is, in itself.

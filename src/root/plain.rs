@@ -52,10 +52,10 @@ use crate::float::sqrt;
 #[cfg(test)]
 mod tests;
 
-/// Of the discriminant, in a m.
+/// Of the discriminant, in a m. Proved in `tests/proofs/plain.g`.
 pub(super) const DISCRIMINANT_ERROR: f64 = 21.0 * U;
 
-/// Of the power, in m.
+/// Of the power, in m. Proved in `tests/proofs/plain.g`.
 const POWER_ERROR: f64 = 7.0 * U;
 
 /// Below minus this part of a m, the discriminant is certain to be negative.
@@ -65,6 +65,7 @@ const SURE_MISS: f64 = DISCRIMINANT_ERROR + U;
 pub(super) const SURE_SIGN: f64 = POWER_ERROR + U;
 
 /// The relative error of an accepted root, times `clear`: 7 u and 10.5 u, and half a u for the rest.
+/// Proved in `tests/proofs/plain.g`.
 pub(super) const ROOT_ERROR: f64 = POWER_ERROR + DISCRIMINANT_ERROR / 2.0 + U / 2.0;
 
 /// Beyond this part of m, a power from a finer sum is certain enough: see [`nearest_ahead`].

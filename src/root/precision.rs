@@ -26,6 +26,11 @@ pub trait Precision: Sized {
     where
         Self: Vector;
 
+    /// Where the ray leaves the sphere, if `t` is above 0 and finite there, told from where it enters even if both have the same `t`.
+    fn exit_at_same_t(sphere: &Sphere<Self>, ray: &Ray<Self>) -> Option<Hit<Self>>
+    where
+        Self: Vector;
+
     /// Both roots along the whole line, ascending.
     fn roots<D: Derivation>(sphere: &Sphere<Self>, ray: &Ray<Self>) -> Option<[Self::Scalar; 2]>
     where

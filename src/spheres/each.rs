@@ -222,7 +222,7 @@ fn occludes_each<V: Vector>(
 }
 
 /// The rays of each packet, and what is found for them: as many as there are of both.
-fn pairs<'a, V, T>(
+fn pairs<'a, V: Vector, T>(
     rays: &'a [Ray<V>],
     found: &'a mut [T],
 ) -> impl Iterator<Item = (&'a [Ray<V>], &'a mut [T])> {

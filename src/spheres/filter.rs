@@ -16,30 +16,29 @@
 //! is kept of a ray and all else in what is kept of each sphere: the loop pays nothing for the bound, and it holds wherever a
 //! sphere is.
 //!
-//! **A moved origin.** Where a ray begins anew far ahead of its origin, `start` is below zero. Then a sphere before the new
-//! origin has h < 0 and m between h / a and 0; with d turned around, that is the case of the derivation.
+//! **A moved origin.** Where a ray begins anew far ahead of its origin, `start` may be below zero. Then a sphere before the new
+//! origin has m < 0; with d turned around, that is a case of the derivation.
 //!
 //! **The sign.** So the result is below zero for every sphere that is hit, and its sign alone says which spheres pass. It is
 //! NaN only where `end` is NaN or below zero: then nothing is hit, and any answer will do.
 //!
 //! **Overflow and underflow.** Lengths up to [`LARGEST`] and directions of 2⁻³⁰ to 2⁶⁰ keep every intermediate result finite:
-//! |o| < 2⁶², |h| < 2¹²², m < 2⁹². (Only a `start` and a `end` may be infinite, and then they limit nothing.) A product that
-//! underflows is off by 2⁻¹⁵⁰ more, which factors of 2 m, 2 |h| and 2 |o| / |d|, together below 2⁶² |o|, bring to 2⁻⁸⁸ |o|.
-//! Either
-//! |o| < 2⁻¹² and that is below `LEAST`, which each r² has added to it, or it is far below u o·o. Larger spheres pass always, and
-//! other rays ask all.
+//! |o| < 2⁶², |h| < 2¹²², and m < 2⁹² for a sphere that is hit, wherever the range starts. (Only a `start` and a `end` may be
+//! infinite, and then they limit nothing, or nothing is hit.) A product that underflows is off by 2⁻¹⁵⁰ more, which factors of
+//! 2 m, 2 |h| and 2 |o| / |d|, together below 2⁶² |o|, bring to 2⁻⁸⁸ |o|. Either |o| < 2⁻¹² and that is below `LEAST`, which each
+//! r² has added to it, or it is far below u o·o. Larger spheres pass always, and other rays ask all.
 
 use glam::{Vec3, Vec4};
 
 use super::lanes::{Instructions, LANES};
-use super::local::{Moved, local_end, narrow, round_up, to_f32};
+use super::local::{Moved, local_end, local_start, narrow, to_f32};
 use crate::rejection::{Bounds, can_be_hit};
 use crate::{Scalar, Sphere, Vector};
 
 /// How many spheres are few: those of one vector of four.
 pub(crate) const FEW: usize = 4;
 
-/// By which part of themselves r², and by twice of which T, is made larger.
+/// By which part of itself T, and by three times which r², is made larger.
 pub(crate) const MARGIN: f32 = f32::MARGIN;
 
 /// What r has added to it for rounded coordinates, in the sum of those of the center, which is no less than its distance: 3 u.
@@ -110,7 +109,7 @@ impl Block {
         [&self.x, &self.y, &self.z, &self.negative_radius_squared]
     }
 
-    /// The spheres that the ray may hit before the segment's end, a bit for each.
+    /// The spheres that the ray may hit from the segment's start to `end`, a bit for each.
     #[inline(always)]
     pub(crate) fn near_segment<I: Instructions>(
         &self,
@@ -164,15 +163,15 @@ impl Block {
     /// Which of the first [`FEW`] spheres the half-line may hit, a bit for each: in one vector, whatever the instructions.
     #[inline(always)]
     pub(crate) fn few_near_half_line(&self, segment: &Segment) -> u32 {
-        let Segment { origin, direction, one_over_a, .. } = *segment;
+        let Segment { origin, direction, one_over_a, shortest, .. } = *segment;
         let first = |lanes: &[f32; LANES]| Vec4::from_slice(lanes);
         let x = first(&self.x) - origin.x;
         let y = first(&self.y) - origin.y;
         let z = first(&self.z) - origin.z;
         let power = x * x + y * y + z * z + first(&self.negative_radius_squared);
         let h = x * direction.x + y * direction.y + z * direction.z;
-        let s = h.max(Vec4::ZERO);
-        (power - s * one_over_a * s).is_negative_bitmask()
+        let s = h.max(Vec4::splat(shortest));
+        (power - s * one_over_a * ((h - s) + h)).is_negative_bitmask()
     }
 }
 
@@ -181,10 +180,10 @@ pub(super) fn is_in_reach<V: Vector>(sphere: &Sphere<V>) -> bool {
     narrow(sphere.center).abs().max_element() <= LARGEST && to_f32(sphere.radius) <= LARGEST
 }
 
-/// r², made larger by `margin` of itself and by what underflow can take from it.
+/// r², made larger by three times `margin` of itself and by what underflow can take from it.
 fn enlarged_square(radius: f64, margin: f32) -> f32 {
     // The margin has room for rounding.
-    to_f32(radius * radius * (1.0 + f64::from(margin)) + f64::from(f32::LEAST))
+    to_f32(radius * radius * (1.0 + 3.0 * f64::from(margin)) + f64::from(f32::LEAST))
 }
 
 /// What the filter knows of a ray.
@@ -196,7 +195,7 @@ pub(crate) struct Segment {
     a: f32,
     /// 1 / d·d, made larger.
     one_over_a: f32,
-    /// a times the t at which the segment begins, made smaller.
+    /// a times the t at which the segment begins.
     shortest: f32,
     /// Where on the ray its origin is.
     moved: f64,
@@ -212,18 +211,29 @@ impl Segment {
             && (LEAST_SQUARE..=LARGEST * LARGEST).contains(&a)
     }
 
-    /// Of a ray, its origin relative to the center.
+    /// Of a ray, its origin relative to the center, from the start of a range on.
     #[inline(always)]
-    pub(crate) fn new(origin: Vec3, direction: Vec3, margin: f32) -> Self {
+    pub(crate) fn new<V: Vector>(
+        origin: Vec3,
+        direction: Vec3,
+        start: V::Scalar,
+        margin: f32,
+    ) -> Self {
         let a = direction.length_squared();
-        let one_over_a = (1.0 + 2.0 * margin) / a;
-        Self { origin, direction, a, one_over_a, shortest: 0.0, moved: 0.0 }
+        let one_over_a = (1.0 + margin) / a;
+        let shortest = local_start::<V>(start, 0.0) * a;
+        Self { origin, direction, a, one_over_a, shortest, moved: 0.0 }
     }
 
     /// Of a ray that begins anew.
-    pub(crate) fn moved(Moved { t, origin }: Moved, direction: Vec3, margin: f32) -> Self {
-        let mut segment = Self::new(origin.as_vec3(), direction, margin);
-        segment.shortest = -round_up(t) * segment.a;
+    pub(crate) fn moved<V: Vector>(
+        Moved { t, origin }: Moved,
+        direction: Vec3,
+        start: V::Scalar,
+        margin: f32,
+    ) -> Self {
+        let mut segment = Self::new::<V>(origin.as_vec3(), direction, start, margin);
+        segment.shortest = local_start::<V>(start, t) * segment.a;
         segment.moved = t;
         segment
     }
@@ -290,9 +300,16 @@ mod tests {
             let Some(hit) = sphere.intersect(&ray, 0.0..f32::INFINITY) else { continue };
             let mut block = Block::EMPTY;
             block.set(LANE, &sphere, Vec3::ZERO, margin);
-            for end in [f32::INFINITY, f32::from_bits(hit.t.to_bits() + 1)] {
+            let just_after = f32::from_bits(hit.t.to_bits() + 1);
+            let Some([_, exit]) = sphere.roots(&ray) else { continue };
+            for [start, end] in [
+                [0.0, f32::INFINITY],
+                [0.0, just_after],
+                [hit.t, f32::INFINITY],
+                [exit, f32::INFINITY],
+            ] {
                 hits += 1;
-                let segment = Segment::new(ray.origin, ray.direction, margin);
+                let segment = Segment::new::<Vec3>(ray.origin, ray.direction, start, margin);
                 let (near, near_line) = lanes.run(Tests { block: &block, segment, end });
                 let near_half_line = block.few_near_half_line(&segment);
                 assert_eq!((near | near_half_line) & !(1 << LANE), 0, "an empty lane passed");

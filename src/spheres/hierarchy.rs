@@ -1,9 +1,10 @@
 //! A collection of many spheres: a bounding volume hierarchy.
 
-mod bounds;
+pub(super) mod bounds;
 mod boxes;
 mod build;
 mod frustum;
+mod hits;
 mod leaf;
 mod packet;
 mod region;
@@ -13,10 +14,14 @@ mod wide;
 
 use alloc::vec::Vec;
 use core::fmt;
+use core::iter::FusedIterator;
 use core::ops::Range;
 
+use bounds::Bounds;
 use boxes::Boxes;
+use build::is_tree;
 use glam::Vec3;
+pub(super) use hits::Hits;
 use leaf::Leaf;
 use region::Region;
 
@@ -27,8 +32,8 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// A collection of many spheres, which finds the nearest hit with a bounding volume hierarchy (BVH).
 ///
 /// It returns what [`nearest`](crate::nearest) returns for a slice of the same spheres, bit for bit: the same hit and the same
-/// index, that of the sphere in front, also where distances round to the same number. It skips groups of spheres whose box the ray does not enter, or enters beyond the
-/// nearest hit so far. The error of these tests is bounded, so they never skip a sphere that is hit.
+/// index, that of the sphere in front, also where distances round to the same number. It skips groups of spheres whose box the
+/// ray does not enter, or enters beyond the nearest hit so far. The error of these tests is bounded, so they never skip a sphere that is hit.
 ///
 /// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost nothing. Up to 16 that
 /// are large compared to the extent of the others, such as the ground, are kept apart and tested with each ray. Where the spheres
@@ -38,10 +43,10 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 ///
 /// # When to use it
 ///
-/// For more than some hundred spheres that stay as they are. They cannot be changed, only collected again, which takes less than
-/// half a second for a million. It takes 26 to 32 bytes a sphere, and at most 56 in `f64`. For few spheres it is a [`Spheres`],
-/// which can also be changed one by one. (In the repository, `cargo bench --manifest-path benches/peers/Cargo.toml --bench
-/// many_spheres` measures it beside other libraries.)
+/// For more than some hundred spheres, in `f32` and in `f64`. To build it of 20,000 takes some 5 ms, and of a million less than
+/// half a second: compared with a scan of 20,000, that pays from some 1,500 rays a frame (`cargo bench --bench sphere_scenes`). So few spheres that a scan is faster are scanned, as [`Spheres`] does. It
+/// takes 26 to 32 bytes a sphere, and at most 56 in `f64`. (In the repository, `cargo bench
+/// --manifest-path benches/peers/Cargo.toml --bench many_spheres` measures it beside other libraries.)
 ///
 /// # How
 ///
@@ -96,6 +101,30 @@ pub(super) struct Tree<V: Vector> {
 const LEAF: u32 = 1 << 31;
 
 impl<V: Vector> SphereBvh<V> {
+    /// Builds the hierarchy of spheres. The index of each is its place in the slice.
+    ///
+    /// `From` takes a `Vec`, an array or a [`Spheres`] as well, and `collect` an iterator.
+    ///
+    /// ```
+    /// use eyeray::{Sphere, SphereBvh};
+    /// use glam::Vec3;
+    ///
+    /// let spheres = [1.0, 2.0, 3.0].map(|x| Sphere::new(Vec3::X * x, 0.1));
+    /// let bvh = SphereBvh::new(&spheres);
+    /// assert_eq!(bvh.get(2), Some(spheres[2]));
+    ///
+    /// assert_eq!(SphereBvh::from(spheres), bvh);
+    /// assert_eq!(spheres.iter().collect::<SphereBvh>(), bvh);
+    /// ```
+    #[must_use]
+    pub fn new(spheres: &[Sphere<V>]) -> Self {
+        if is_tree(spheres.len(), Lanes::best()) {
+            Self(Shape::Tree(Tree::new(spheres)))
+        } else {
+            Self(Shape::Scan(spheres.into()))
+        }
+    }
+
     /// Returns the number of spheres.
     #[inline]
     pub fn len(&self) -> usize {
@@ -123,8 +152,15 @@ impl<V: Vector> SphereBvh<V> {
     pub fn iter(
         &self,
     ) -> impl ExactSizeIterator<Item = Sphere<V>> + DoubleEndedIterator + Clone + '_ {
-        // There is a sphere at each of these indices.
-        (0..self.len()).map(|index| self.get(index).unwrap_or_default())
+        self.into_iter()
+    }
+
+    /// Returns the axis-aligned bounding box of all spheres: its lowest and its highest corner, each coordinate rounded outwards.
+    ///
+    /// Spheres that no ray can hit do not count. Without others, the box is empty: from +∞ to -∞. It takes time in proportion to
+    /// the number of spheres. [`Spheres::bounds`] has an example.
+    pub fn bounds(&self) -> (V, V) {
+        Bounds::of_all(self.iter()).corners()
     }
 
     /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the sphere in
@@ -137,10 +173,26 @@ impl<V: Vector> SphereBvh<V> {
         }
     }
 
+    /// [`hits`](Self::hits) with that set of instructions.
+    #[inline(always)]
+    pub(super) fn hits_in_lanes(
+        &self,
+        lanes: Lanes,
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> super::hits::Hits<'_, V> {
+        match &self.0 {
+            Shape::Scan(spheres) => {
+                super::hits::Hits::Scan(spheres.hits_in_lanes(lanes, ray, range))
+            }
+            Shape::Tree(tree) => super::hits::Hits::Tree(Hits::new(tree, lanes, ray, range)),
+        }
+    }
+
     /// A tree, however few the spheres are.
     #[cfg(test)]
     pub(super) fn tree(spheres: &Spheres<V>) -> Self {
-        Self(Shape::Tree(Tree::new(spheres)))
+        Self(Shape::Tree(Tree::new(spheres.as_slice())))
     }
 
     /// The same with that set of instructions.
@@ -226,32 +278,105 @@ impl<V: Vector> PartialEq for SphereBvh<V> {
     }
 }
 
+/// Builds the hierarchy of these spheres, with the same indices.
+impl<V: Vector> From<Spheres<V>> for SphereBvh<V> {
+    fn from(spheres: Spheres<V>) -> Self {
+        if is_tree(spheres.len(), Lanes::best()) {
+            Self(Shape::Tree(Tree::new(spheres.as_slice())))
+        } else {
+            Self(Shape::Scan(spheres))
+        }
+    }
+}
+
+/// Builds the hierarchy, as [`SphereBvh::new`] does.
 impl<V: Vector> From<Vec<Sphere<V>>> for SphereBvh<V> {
     fn from(spheres: Vec<Sphere<V>>) -> Self {
-        Spheres::from(spheres).into()
+        Self::new(&spheres)
     }
 }
 
+/// Builds the hierarchy, as [`SphereBvh::new`] does.
 impl<V: Vector, const N: usize> From<[Sphere<V>; N]> for SphereBvh<V> {
     fn from(spheres: [Sphere<V>; N]) -> Self {
-        Spheres::from(spheres).into()
+        Self::new(&spheres)
     }
 }
 
+/// Builds the hierarchy, as [`SphereBvh::new`] does.
 impl<V: Vector> From<&[Sphere<V>]> for SphereBvh<V> {
     fn from(spheres: &[Sphere<V>]) -> Self {
-        Spheres::from(spheres).into()
+        Self::new(spheres)
     }
 }
 
+/// Collects the spheres into a `Vec`, and builds their hierarchy. The index of each is its place among them.
 impl<V: Vector> FromIterator<Sphere<V>> for SphereBvh<V> {
     fn from_iter<I: IntoIterator<Item = Sphere<V>>>(iter: I) -> Self {
-        iter.into_iter().collect::<Spheres<V>>().into()
+        iter.into_iter().collect::<Vec<_>>().into()
     }
 }
 
+/// Collects copies of the spheres.
 impl<'a, V: Vector> FromIterator<&'a Sphere<V>> for SphereBvh<V> {
     fn from_iter<I: IntoIterator<Item = &'a Sphere<V>>>(iter: I) -> Self {
-        iter.into_iter().collect::<Spheres<V>>().into()
+        iter.into_iter().copied().collect()
     }
 }
+
+/// Returns the spheres in the order in which they were collected, in a `Vec` of their own.
+impl<V: Vector> IntoIterator for SphereBvh<V> {
+    type Item = Sphere<V>;
+    type IntoIter = alloc::vec::IntoIter<Sphere<V>>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        match self.0 {
+            Shape::Scan(spheres) => spheres.into_iter(),
+            Shape::Tree(_) => self.iter().collect::<Vec<_>>().into_iter(),
+        }
+    }
+}
+
+/// Returns the spheres in the order in which they were collected.
+impl<'a, V: Vector> IntoIterator for &'a SphereBvh<V> {
+    type Item = Sphere<V>;
+    type IntoIter = SphereBvhIter<'a, V>;
+
+    #[inline]
+    fn into_iter(self) -> Self::IntoIter {
+        SphereBvhIter { spheres: self, indices: 0..self.len() }
+    }
+}
+
+/// An iterator over the spheres of a [`SphereBvh`], in the order in which they were collected.
+#[derive(Clone, Debug)]
+pub struct SphereBvhIter<'a, V: Vector = Vec3> {
+    spheres: &'a SphereBvh<V>,
+    /// There is a sphere at each of these indices.
+    indices: Range<usize>,
+}
+
+impl<V: Vector> Iterator for SphereBvhIter<'_, V> {
+    type Item = Sphere<V>;
+
+    fn next(&mut self) -> Option<Sphere<V>> {
+        self.spheres.get(self.indices.next()?)
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.indices.size_hint()
+    }
+
+    fn nth(&mut self, n: usize) -> Option<Sphere<V>> {
+        self.spheres.get(self.indices.nth(n)?)
+    }
+}
+
+impl<V: Vector> DoubleEndedIterator for SphereBvhIter<'_, V> {
+    fn next_back(&mut self) -> Option<Sphere<V>> {
+        self.spheres.get(self.indices.next_back()?)
+    }
+}
+
+impl<V: Vector> ExactSizeIterator for SphereBvhIter<'_, V> {}
+impl<V: Vector> FusedIterator for SphereBvhIter<'_, V> {}

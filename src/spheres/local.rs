@@ -52,11 +52,42 @@ pub(super) fn above<V: Vector>(t: V::Scalar) -> V::Scalar {
         where
             V: Internal,
         {
-            -(-self.0).next_below()
+            V::next_above(self.0)
         }
     }
 
     V::perform(Above(t))
+}
+
+/// The float before one that is positive.
+#[inline(always)]
+fn below<V: Vector>(t: V::Scalar) -> V::Scalar {
+    struct Below<S>(S);
+
+    impl<V: Vector> Operation<V> for Below<V::Scalar> {
+        type Output = V::Scalar;
+
+        #[inline(always)]
+        fn run(self) -> V::Scalar
+        where
+            V: Internal,
+        {
+            self.0.next_below()
+        }
+    }
+
+    V::perform(Below(t))
+}
+
+/// The start of a range, or 0, as a ray has it that begins anew at `moved`: rounded downwards.
+///
+/// A hit is in a range by its t as returned, which is rounded. So the exact t may be less than the start, but not than the float
+/// before it.
+#[inline(always)]
+pub(super) fn local_start<V: Vector>(start: V::Scalar, moved: f64) -> f32 {
+    let start = if start > V::Scalar::ZERO { below::<V>(start).into() } else { 0.0 };
+    // Upwards is downwards in the mirror.
+    if moved == 0.0 { -round_up(-start) } else { -round_up(end_after(-start, -moved)) }
 }
 
 /// The end of a range as a ray has it that begins anew at `moved`: rounded upwards.

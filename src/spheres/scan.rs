@@ -1,4 +1,4 @@
-//! A collection of few or changing spheres, which are all tested: by a filter over many lanes, and the few that pass by the exact
+//! A collection of few spheres, or of few rays between changes, which are all tested: by a filter over many lanes, and the few that pass by the exact
 //! routine.
 
 use alloc::vec::Vec;
@@ -8,6 +8,7 @@ use core::{fmt, iter, slice};
 use glam::Vec3;
 
 use super::filter::{Block, FEW, LARGEST, MARGIN, Segment};
+use super::hierarchy::bounds::Bounds;
 use super::lanes::{Instructions, LANES, Lanes, Vectorized};
 use super::local::{Approach, narrow};
 use super::middle::Middle;
@@ -17,7 +18,7 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// How many blocks have a bit for each sphere in one word.
 const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 
-/// A collection of few or changing spheres, which finds the nearest hit by testing many spheres at a time.
+/// A collection of few spheres, or for few rays between changes, which finds the nearest hit by testing many spheres at a time.
 ///
 /// It returns what [`nearest`] returns for a slice of the same spheres, bit for bit: the same hit and the same index, that of the
 /// sphere in front, also where distances round to the same number. It takes less time, because most spheres are dropped in single
@@ -31,9 +32,11 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 ///
 /// # When to use it
 ///
-/// For two spheres or more, up to some hundred, or for any number that changes: spheres can be added, changed and removed one by
-/// one. The time of a query is proportional to their number. For more than some hundred that stay as they are,
-/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. (`cargo bench --bench spheres` measures 1 to 65,536.)
+/// For two spheres or more, up to some hundred, and for more where few rays are asked between changes: spheres can be added,
+/// changed and removed one by one. The time of a query is proportional to their number. For more than some hundred,
+/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. To build it takes time: of 20,000 spheres, some 5 ms,
+/// which pays from some 1,500 rays between changes. (`cargo bench --bench spheres` measures 1 to 65,536 spheres, and `cargo bench
+/// --bench sphere_scenes` building and both precisions.)
 ///
 /// # Instructions
 ///
@@ -72,6 +75,20 @@ pub struct Spheres<V: Vector = Vec3> {
 
 impl<V: Vector> Spheres<V> {
     /// Creates an empty collection.
+    ///
+    /// `From` takes a `Vec`, an array or a slice of spheres, and `collect` an iterator. [`extend`](Extend::extend) adds many, and
+    /// [`push`](Self::push) one.
+    ///
+    /// ```
+    /// use eyeray::{Sphere, Spheres};
+    /// use glam::Vec3;
+    ///
+    /// let row = [1.0, 2.0, 3.0].map(|x| Sphere::new(Vec3::X * x, 0.1));
+    /// let mut spheres = Spheres::new();
+    /// spheres.push(row[0]);
+    /// spheres.extend(&row[1..]);
+    /// assert_eq!(spheres, Spheres::from(row));
+    /// ```
     #[inline]
     #[must_use]
     pub const fn new() -> Self {
@@ -224,12 +241,43 @@ impl<V: Vector> Spheres<V> {
         self.into_iter()
     }
 
+    /// Returns the axis-aligned bounding box of all spheres: its lowest and its highest corner, each coordinate rounded outwards.
+    ///
+    /// Spheres that no ray can hit do not count. Without others, the box is empty: from +∞ to -∞. It takes time in proportion to
+    /// the number of spheres.
+    ///
+    /// ```
+    /// use eyeray::{Camera, Sphere, Spheres, ViewRect};
+    /// use glam::{Vec3, vec3};
+    ///
+    /// # fn main() -> Result<(), eyeray::CameraError> {
+    /// let spheres = Spheres::from([
+    ///     Sphere::new(vec3(-3.0, 1.0, 0.0), 1.0),
+    ///     Sphere::new(vec3(7.0, 2.0, 0.0), 2.0),
+    /// ]);
+    /// let (low, high) = spheres.bounds();
+    /// assert_eq!((low, high), (vec3(-4.0, 0.0, -2.0), vec3(9.0, 4.0, 2.0)));
+    ///
+    /// // A camera that looks along -z and sees all of them.
+    /// let middle = (low + high) / 2.0;
+    /// let size = high - low;
+    /// let view = ViewRect::centered(size.x, size.y);
+    /// let eye = middle + Vec3::Z * size.z;
+    /// let camera = Camera::orthographic(eye, middle, Vec3::Y, view)?;
+    /// # assert!(camera.project(low).is_some());
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn bounds(&self) -> (V, V) {
+        Bounds::of_all(self.iter()).corners()
+    }
+
     /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the sphere in
     /// front by the exact roots, and of equal exact roots the lowest index.
     #[inline]
     pub fn nearest(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<(usize, Hit<V>)> {
         if self.len() <= FEW {
-            return self.nearest_of(self.few_near(ray), ray, range);
+            return self.nearest_of(self.few_near(ray, range.start), ray, range);
         }
         self.nearest_in_lanes(Lanes::best(), ray, range)
     }
@@ -241,7 +289,7 @@ impl<V: Vector> Spheres<V> {
         ray: &Ray<V>,
         range: Range<V::Scalar>,
     ) -> Option<(usize, Hit<V>)> {
-        let Some(segment) = self.segment(ray, range.end) else {
+        let Some(segment) = self.segment(ray, &range) else {
             return nearest(&self.spheres, ray, range);
         };
         if let Some(near) = self.word_near(lanes, &segment, range.end) {
@@ -258,7 +306,7 @@ impl<V: Vector> Spheres<V> {
         ray: &Ray<V>,
         range: Range<V::Scalar>,
     ) -> bool {
-        let Some(segment) = self.segment(ray, range.end) else {
+        let Some(segment) = self.segment(ray, &range) else {
             return self.spheres.occludes(ray, range);
         };
         if let Some(near) = self.word_near(lanes, &segment, range.end) {
@@ -271,25 +319,27 @@ impl<V: Vector> Spheres<V> {
 
     /// What the filter knows of a ray, if it can compute with that.
     #[inline(always)]
-    fn segment(&self, ray: &Ray<V>, end: V::Scalar) -> Option<Segment> {
+    fn segment(&self, ray: &Ray<V>, range: &Range<V::Scalar>) -> Option<Segment> {
         let (origin, direction) = self.relative(ray);
         if Segment::allows(origin, direction, self.middle.near_squared) {
-            Some(Segment::new(origin, direction, MARGIN))
+            Some(Segment::new::<V>(origin, direction, range.start, MARGIN))
         } else {
-            self.segment_from_afar(ray, end)
+            // Not returned as it is: with one place for both, what was just written would be copied, and waited for.
+            Some(self.segment_from_afar(ray, range)?)
         }
     }
 
     /// The same of one that begins far away.
     #[cold]
     #[inline(never)]
-    fn segment_from_afar(&self, ray: &Ray<V>, end: V::Scalar) -> Option<Segment> {
+    fn segment_from_afar(&self, ray: &Ray<V>, range: &Range<V::Scalar>) -> Option<Segment> {
         let (origin, direction) = self.relative(ray);
         Segment::allows(origin, direction, LARGEST * LARGEST).then(|| {
             let origin = ray.origin.to_f64() - self.middle.center.to_f64();
             let extent = self.middle.extent.into();
-            let moved = Approach::new(origin, ray.direction.to_f64(), extent).moved(end.into());
-            Segment::moved(moved, direction, MARGIN)
+            let moved =
+                Approach::new(origin, ray.direction.to_f64(), extent).moved(range.end.into());
+            Segment::moved::<V>(moved, direction, range.start, MARGIN)
         })
     }
 
@@ -299,13 +349,35 @@ impl<V: Vector> Spheres<V> {
         (narrow(ray.origin - self.middle.center), narrow(ray.direction))
     }
 
-    /// A bit for each of the first [`FEW`] spheres that the ray may meet, and perhaps for others.
+    /// Calls `ask` for the index of every sphere that the ray may meet in the range, and perhaps for others.
+    pub(super) fn for_each_near(
+        &self,
+        lanes: Lanes,
+        ray: &Ray<V>,
+        range: &Range<V::Scalar>,
+        mut ask: impl FnMut(usize),
+    ) {
+        if self.len() <= FEW {
+            Bits(self.few_near(ray, range.start)).for_each(ask);
+        } else if let Some(segment) = self.segment(ray, range) {
+            let mut near = Near::new(self, lanes, &segment);
+            let end = segment.end(range.end);
+            while let Some((index, _)) = near.next(end) {
+                ask(index);
+            }
+        } else if ray.origin.to_f64().is_finite() && ray.direction.to_f64().is_finite() {
+            (0..self.len()).for_each(ask);
+        }
+    }
+
+    /// A bit for each of the first [`FEW`] spheres that the ray may meet from `start` on, and perhaps for others.
     #[inline]
-    fn few_near(&self, ray: &Ray<V>) -> u64 {
+    fn few_near(&self, ray: &Ray<V>, start: V::Scalar) -> u64 {
         let (origin, direction) = self.relative(ray);
         match self.blocks.first() {
             Some(block) if Segment::allows(origin, direction, LARGEST * LARGEST) => {
-                block.few_near_half_line(&Segment::new(origin, direction, MARGIN)).into()
+                let segment = Segment::new::<V>(origin, direction, start, MARGIN);
+                block.few_near_half_line(&segment).into()
             }
             Some(_) => (1 << FEW) - 1,
             None => 0,
@@ -464,7 +536,7 @@ impl<V: Vector> Hittable<V> for Spheres<V> {
     #[inline]
     fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         if self.len() <= FEW {
-            return self.any_of(self.few_near(ray), ray, range);
+            return self.any_of(self.few_near(ray, range.start), ray, range);
         }
         self.occludes_in_lanes(Lanes::best(), ray, range)
     }
@@ -493,30 +565,35 @@ impl<V: Vector> From<Vec<Sphere<V>>> for Spheres<V> {
     }
 }
 
+/// Moves the spheres into a `Vec`.
 impl<V: Vector, const N: usize> From<[Sphere<V>; N]> for Spheres<V> {
     fn from(spheres: [Sphere<V>; N]) -> Self {
         Vec::from(spheres).into()
     }
 }
 
+/// Copies the spheres.
 impl<V: Vector> From<&[Sphere<V>]> for Spheres<V> {
     fn from(spheres: &[Sphere<V>]) -> Self {
         spheres.to_vec().into()
     }
 }
 
+/// Collects the spheres into a `Vec`. The index of each is its place among them.
 impl<V: Vector> FromIterator<Sphere<V>> for Spheres<V> {
     fn from_iter<I: IntoIterator<Item = Sphere<V>>>(iter: I) -> Self {
         iter.into_iter().collect::<Vec<_>>().into()
     }
 }
 
+/// Collects copies of the spheres.
 impl<'a, V: Vector> FromIterator<&'a Sphere<V>> for Spheres<V> {
     fn from_iter<I: IntoIterator<Item = &'a Sphere<V>>>(iter: I) -> Self {
         iter.into_iter().copied().collect()
     }
 }
 
+/// Appends the spheres.
 impl<V: Vector> Extend<Sphere<V>> for Spheres<V> {
     fn extend<I: IntoIterator<Item = Sphere<V>>>(&mut self, iter: I) {
         let iter = iter.into_iter();
@@ -528,12 +605,14 @@ impl<V: Vector> Extend<Sphere<V>> for Spheres<V> {
     }
 }
 
+/// Appends copies of the spheres.
 impl<'a, V: Vector> Extend<&'a Sphere<V>> for Spheres<V> {
     fn extend<I: IntoIterator<Item = &'a Sphere<V>>>(&mut self, iter: I) {
         self.extend(iter.into_iter().copied());
     }
 }
 
+/// Returns the spheres by ascending index.
 impl<V: Vector> IntoIterator for Spheres<V> {
     type Item = Sphere<V>;
     type IntoIter = alloc::vec::IntoIter<Sphere<V>>;
@@ -543,6 +622,7 @@ impl<V: Vector> IntoIterator for Spheres<V> {
     }
 }
 
+/// Returns the spheres by ascending index.
 impl<'a, V: Vector> IntoIterator for &'a Spheres<V> {
     type Item = Sphere<V>;
     type IntoIter = iter::Copied<slice::Iter<'a, Sphere<V>>>;

@@ -15,13 +15,13 @@ use crate::{Hit, Hittable, Ray, Scalar, Sphere, Vector, nearest};
     reason = "those of the integration tests, which other unit tests take too"
 )]
 #[path = "../../tests/support/families.rs"]
-mod families;
+pub(super) mod families;
 mod pictures;
 
 use families::{FAMILIES, Family, Rng};
 
 /// What the tests need of a precision.
-trait Tested: Vector {
+pub(super) trait Tested: Vector {
     /// A case of a family.
     fn case(family: &Family, rng: &mut Rng) -> (Ray<Self>, Sphere<Self>);
     /// The number of these bits, as many as it takes.
@@ -76,6 +76,8 @@ macro_rules! in_both {
     };
 }
 
+pub(super) use in_both;
+
 in_both! {
     equals_the_slice_in_every_family_and_length
     finds_every_sphere_alone_in_every_lane
@@ -89,24 +91,24 @@ in_both! {
     a_hierarchy_keeps_what_it_is_given
 }
 
-fn all<V: Vector>() -> Range<V::Scalar> {
+pub(super) fn all<V: Vector>() -> Range<V::Scalar> {
     V::Scalar::ZERO..V::Scalar::INFINITY
 }
 
-fn scalar<V: Vector>(number: f64) -> V::Scalar {
+pub(super) fn scalar<V: Vector>(number: f64) -> V::Scalar {
     V::Scalar::from_f64(number)
 }
 
-fn sphere<V: Vector>(center: DVec3, radius: f64) -> Sphere<V> {
+pub(super) fn sphere<V: Vector>(center: DVec3, radius: f64) -> Sphere<V> {
     Sphere::new(V::from_f64(center), scalar::<V>(radius))
 }
 
-fn ray<V: Vector>(origin: DVec3, direction: DVec3) -> Ray<V> {
+pub(super) fn ray<V: Vector>(origin: DVec3, direction: DVec3) -> Ray<V> {
     Ray::new(V::from_f64(origin), V::from_f64(direction))
 }
 
 /// A hit as bits: -0.0 is not 0.0 here.
-fn bits<V: Tested>(found: Option<(usize, Hit<V>)>) -> Option<(usize, [u64; 7], Hit<V>)> {
+pub(super) fn bits<V: Tested>(found: Option<(usize, Hit<V>)>) -> Option<(usize, [u64; 7], Hit<V>)> {
     found.map(|(index, hit)| {
         let [a, b, c] = hit.point.to_f64().to_array().map(f64::to_bits);
         let [d, e, f] = hit.normal.to_f64().to_array().map(f64::to_bits);
@@ -115,21 +117,21 @@ fn bits<V: Tested>(found: Option<(usize, Hit<V>)>) -> Option<(usize, [u64; 7], H
 }
 
 /// The same spheres as all three hold them.
-struct Scene<V: Vector> {
-    slice: Vec<Sphere<V>>,
-    scan: Spheres<V>,
+pub(super) struct Scene<V: Vector> {
+    pub(super) slice: Vec<Sphere<V>>,
+    pub(super) scan: Spheres<V>,
     /// A hierarchy, however few they are.
-    bvh: SphereBvh<V>,
+    pub(super) bvh: SphereBvh<V>,
 }
 
 impl<V: Tested> Scene<V> {
-    fn new(slice: Vec<Sphere<V>>) -> Self {
+    pub(super) fn new(slice: Vec<Sphere<V>>) -> Self {
         let scan = Spheres::from(slice.clone());
         Self { bvh: SphereBvh::tree(&scan), scan, slice }
     }
 
     #[track_caller]
-    fn assert_same(&self, ray: &Ray<V>, range: &Range<V::Scalar>) {
+    pub(super) fn assert_same(&self, ray: &Ray<V>, range: &Range<V::Scalar>) {
         let Self { slice, scan, bvh } = self;
         let expected = bits(nearest(slice, ray, range.clone()));
         for lanes in Lanes::available() {
@@ -183,7 +185,7 @@ fn hostile<V: Tested>(rng: &mut Rng) -> V {
 }
 
 /// A member of a scene for a ray of a case of that family.
-fn member<V: Tested>(rng: &mut Rng, family: &Family, of_case: Sphere<V>) -> Sphere<V> {
+pub(super) fn member<V: Tested>(rng: &mut Rng, family: &Family, of_case: Sphere<V>) -> Sphere<V> {
     let mut sphere = of_case;
     match rng.below(10) {
         // The very sphere: equal distances.
@@ -211,12 +213,16 @@ fn member<V: Tested>(rng: &mut Rng, family: &Family, of_case: Sphere<V>) -> Sphe
 }
 
 /// The float after a positive one.
-fn above<V: Tested>(t: V::Scalar) -> V::Scalar {
+pub(super) fn above<V: Tested>(t: V::Scalar) -> V::Scalar {
     if t > V::Scalar::ZERO && t < V::Scalar::INFINITY { V::from_bits(V::to_bits(t) + 1) } else { t }
 }
 
 /// Ranges that hold all, that begin or end at a hit, and that are none.
-fn ranges<V: Tested>(rng: &mut Rng, slice: &[Sphere<V>], ray: &Ray<V>) -> Vec<Range<V::Scalar>> {
+pub(super) fn ranges<V: Tested>(
+    rng: &mut Rng,
+    slice: &[Sphere<V>],
+    ray: &Ray<V>,
+) -> Vec<Range<V::Scalar>> {
     let mut ranges = vec![all::<V>(), -V::Scalar::INFINITY..scalar::<V>(V::LIMITS[0])];
     let first = nearest(slice, ray, all::<V>()).map(|(_, hit)| hit.t);
     let other = (!slice.is_empty())
@@ -436,7 +442,7 @@ fn of_equal_distances_the_lowest_index_of_large_and_small<V: Tested>() {
 }
 
 /// What a long run asks: scenes of many kinds, and rays that are hard for their boxes and filters.
-mod questions {
+pub(super) mod questions {
     use super::*;
 
     fn integer(rng: &mut Rng, low: i64, high: i64) -> f64 {
@@ -469,7 +475,7 @@ mod questions {
     }
 
     /// Spheres of one kind, `most` at most.
-    pub(super) fn scene<V: Tested>(rng: &mut Rng, most: u64) -> Vec<Sphere<V>> {
+    pub(in crate::spheres) fn scene<V: Tested>(rng: &mut Rng, most: u64) -> Vec<Sphere<V>> {
         let length = length(rng, most);
         let mut slice: Vec<Sphere<V>> = match rng.below(7) {
             // Repeated and concentric, on a lattice.
@@ -536,7 +542,7 @@ mod questions {
     }
 
     /// A ray for that scene.
-    pub(super) fn ray<V: Tested>(rng: &mut Rng, slice: &[Sphere<V>]) -> Ray<V> {
+    pub(in crate::spheres) fn ray<V: Tested>(rng: &mut Rng, slice: &[Sphere<V>]) -> Ray<V> {
         let target = if slice.is_empty() { Sphere::default() } else { choose(rng, slice) };
         let (center, radius): (_, f64) = (target.center.to_f64(), target.radius.into());
         let unit = rng.unit_vector();

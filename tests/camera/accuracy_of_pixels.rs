@@ -27,12 +27,12 @@ const ORIGIN: f64 = 6.0;
 const ROUNDED: f64 = 0.87;
 const ORIGIN_IN_F32: f64 = 8.0;
 
-/// A distance along an axis of the basis, in H |f|, f being where the point is from the eye: 1 from the difference, 3 from the dot
-/// product and 0.87 from the basis.
+/// A distance along an axis of the basis, in H |f|, f being where the point is from the eye: 1 from the difference, 3 from the
+/// dot product and 0.87 from the basis.
 const ALONG_AXIS: f64 = 5.0;
 
-/// u or v of a perspective camera, in H L (1 + L/d): 4.87 L, as above, and as much times L/d for the depth, and 2 L for a division
-/// and a multiplication; L/d is at least 1.
+/// u or v of a perspective camera, in H L (1 + L/d): 4.87 L, as above, and as much times L/d for the depth, and 2 L for a
+/// division and a multiplication; L/d is at least 1.
 const PROJECTED: f64 = 6.0;
 
 /// A pixel, in H of itself: a subtraction, the size of the view, a division and a multiplication.
@@ -177,8 +177,8 @@ fn check<V: Rounding>(case: &Case) -> Result<(), TestCaseError> {
     check_projection(&perspective, point, [&along[0], &along[1]], off, exact_view, (width, height))
 }
 
-/// That the camera projects the point to where it should, in the view plane and in the image. u and v may be off by so much before
-/// they are rounded.
+/// That the camera projects the point to where it should, in the view plane and in the image. u and v may be off by so much
+/// before they are rounded.
 fn check_projection<V: Rounding>(
     camera: &Camera<V>,
     point: V,

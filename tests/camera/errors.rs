@@ -203,6 +203,32 @@ fn every_error_is_a_sentence_that_names_its_argument() {
         ),
         (CameraError::FovOutOfRange, "the camera's field of view is not between 0 and π"),
         (CameraError::AspectNotPositive, "the camera's aspect is not positive"),
+        (
+            CameraError::NotFinite(CameraArgument::ViewMatrix),
+            "the camera's view_matrix is not finite",
+        ),
+        (
+            CameraError::ViewMatrixProjects,
+            "the last row of the camera's view matrix is not (0, 0, 0, 1)",
+        ),
+        (
+            CameraError::ViewMatrixScales,
+            "the camera's view matrix scales: a row is not of length 1",
+        ),
+        (
+            CameraError::ViewMatrixShears,
+            "the camera's view matrix shears: two rows are not at a right angle",
+        ),
+        (
+            CameraError::ProjectionMatrixUnknown,
+            "the last row of the camera's projection matrix is neither (0, 0, -1, 0), (0, 0, 1, 0) nor (0, 0, 0, 1)",
+        ),
+        (
+            CameraError::ProjectionMatrixSkews,
+            "the camera's projection matrix rotates or shears the image, or moves the eye",
+        ),
+        (CameraError::ProjectionMatrixMirrors, "the camera's projection matrix mirrors the image"),
+        (CameraError::ProjectionMatrixFlat, "the camera's projection matrix is flat"),
     ] {
         let error: Box<dyn core::error::Error> = Box::new(error);
         assert_eq!(error.to_string(), sentence);
@@ -220,6 +246,8 @@ fn an_argument_is_called_what_the_functions_call_it() {
         (CameraArgument::Distance, "distance"),
         (CameraArgument::FovY, "fov_y"),
         (CameraArgument::Aspect, "aspect"),
+        (CameraArgument::ViewMatrix, "view_matrix"),
+        (CameraArgument::ProjectionMatrix, "projection_matrix"),
     ] {
         assert_eq!(argument.to_string(), name);
     }

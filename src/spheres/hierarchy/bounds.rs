@@ -8,7 +8,7 @@ use crate::{Sphere, Vector};
 
 /// The lowest and the highest corner.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
+pub(in crate::spheres) struct Bounds {
     low: DVec3,
     high: DVec3,
 }
@@ -26,6 +26,16 @@ impl Bounds {
     /// The box around two.
     pub(super) fn and(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// The box around some spheres.
+    pub(in crate::spheres) fn of_all<V: Vector>(spheres: impl Iterator<Item = Sphere<V>>) -> Self {
+        spheres.fold(Self::NONE, |bounds, sphere| bounds.and(Self::of(&sphere)))
+    }
+
+    /// The corners, for coordinates that the precision holds.
+    pub(in crate::spheres) fn corners<V: Vector>(self) -> (V, V) {
+        (V::from_f64(self.low), V::from_f64(self.high))
     }
 
     /// The corners relative to a center, rounded outwards.

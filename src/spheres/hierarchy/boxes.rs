@@ -12,6 +12,9 @@
 //! (c_near - p) / d ≤ t ≤ (c_far - p) / d
 //! ```
 //!
+//! and its exact t is no less than the start of the range and no more than its end, which [`local`](crate::spheres::local) rounds
+//! outwards. So the start counts as one more near plane, and the end as one more far plane.
+//!
 //! **Rounded numbers.** The planes are rounded outwards. The origin is rounded to `f32`, by at most u L with u = 2⁻²⁴, and may
 //! have been moved, by u L / 8 ([`local`](crate::spheres::local): u / 16 of its distance, which is at most √3 L). A component of
 //! the direction is rounded by u d, and so the coordinate of the point at t by u t d. How far the hit is from the origin along
@@ -41,7 +44,7 @@ use glam::{Vec3, Vec4};
 use super::LEAF;
 use crate::spheres::lanes::{Instructions, LANES};
 
-/// By how much a box may be missed, in L r: 16 u. See the derivation above.
+/// By how much a box may be missed, in L r: 16 u. See the derivation above. Proved in `tests/proofs/boxes.g`.
 pub(super) const MARGIN: f32 = 8.0 * f32::EPSILON;
 
 /// The least component of a direction, in the largest one: 2 u.
@@ -128,13 +131,13 @@ impl Boxes {
         (low.into(), high.into())
     }
 
-    /// The boxes through which the ray passes before `end`, a bit for each, and where it enters them.
+    /// The boxes through which the ray passes from a start to an end, a bit for each, and where it enters them, or else the start.
     #[inline(always)]
     pub(super) fn entered<I: Instructions>(
         &self,
         instructions: I,
         slabs: &Slabs,
-        end: f32,
+        [start, end]: [f32; 2],
         entries: &mut [f32; LANES],
     ) -> u32 {
         let Slabs { reciprocal, near, far, is_negative } = *slabs;
@@ -151,7 +154,7 @@ impl Boxes {
                 instructions.multiply_add(planes[lane], reciprocal[axis], offset[axis])
             };
             let enter =
-                larger(larger(at(x.0, 0, near), at(y.0, 1, near)), larger(at(z.0, 2, near), 0.0));
+                larger(larger(at(x.0, 0, near), at(y.0, 1, near)), larger(at(z.0, 2, near), start));
             let leave =
                 smaller(smaller(at(x.1, 0, far), at(y.1, 1, far)), smaller(at(z.1, 2, far), end));
             entries[lane] = enter;
@@ -210,7 +213,7 @@ mod tests {
     struct Enter<'a> {
         boxes: &'a Boxes,
         slabs: Slabs,
-        end: f32,
+        limits: [f32; 2],
     }
 
     impl Vectorized for Enter<'_> {
@@ -219,7 +222,7 @@ mod tests {
         #[inline(always)]
         fn run<I: Instructions>(self, instructions: I) -> Self::Output {
             let mut entries = [0.0; LANES];
-            let entered = self.boxes.entered(instructions, &self.slabs, self.end, &mut entries);
+            let entered = self.boxes.entered(instructions, &self.slabs, self.limits, &mut entries);
             (entered, entries)
         }
     }
@@ -257,12 +260,21 @@ mod tests {
             boxes.set(LANE, sphere.bounds());
             let (low, high) = boxes.bounds();
             let largest = low.abs().max(high.abs()).max_element();
-            for end in [f32::INFINITY, f32::from_bits(hit.t.to_bits() + 1)] {
+            let just_after = f32::from_bits(hit.t.to_bits() + 1);
+            let Some([_, exit]) = sphere.roots(&ray) else { continue };
+            // The exact t may be less than the one returned.
+            let before = |t: f32| f32::from_bits(t.to_bits() - 1);
+            for (limits, t) in [
+                ([0.0, f32::INFINITY], hit.t),
+                ([0.0, just_after], hit.t),
+                ([before(hit.t), just_after], hit.t),
+                ([before(exit), f32::INFINITY], exit),
+            ] {
                 hits += 1;
                 let slabs = Slabs::new(ray.origin, ray.direction, largest, margin);
-                let (entered, entries) = lanes.run(Enter { boxes: &boxes, slabs, end });
+                let (entered, entries) = lanes.run(Enter { boxes: &boxes, slabs, limits });
                 assert_eq!(entered & !(1 << LANE), 0, "an empty box was entered");
-                dropped += u32::from(entered == 0 || entries[LANE] > hit.t);
+                dropped += u32::from(entered == 0 || entries[LANE] > t);
             }
         }
         assert!(hits > cases / 4, "{hits}");

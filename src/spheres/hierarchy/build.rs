@@ -2,15 +2,15 @@
 
 use alloc::vec::Vec;
 
+use arrayvec::ArrayVec;
 use glam::Vec4;
 
+use super::Tree;
 use super::bounds::Bounds;
 use super::leaf::{Leaf, NONE};
 use super::split::split_up;
 use super::wide::Wide;
-use super::{Shape, SphereBvh, Tree};
 use crate::rejection::can_be_hit;
-use crate::spheres::Spheres;
 use crate::spheres::filter::is_in_reach;
 use crate::spheres::lanes::{LANES, Lanes};
 use crate::spheres::local::{narrow, to_f32};
@@ -45,18 +45,14 @@ impl Member {
     }
 }
 
-impl<V: Vector> From<Spheres<V>> for SphereBvh<V> {
-    fn from(spheres: Spheres<V>) -> Self {
-        let few = FEW * Lanes::best().at_a_time();
-        let is_tree = spheres.len() > few && spheres.len() <= MOST;
-        Self(if is_tree { Shape::Tree(Tree::new(&spheres)) } else { Shape::Scan(spheres) })
-    }
+/// Whether a tree answers sooner than a scan, of so many spheres and with these instructions, and can be built.
+pub(super) fn is_tree(count: usize, lanes: Lanes) -> bool {
+    count > FEW * lanes.at_a_time() && count <= MOST
 }
 
 impl<V: Vector> Tree<V> {
     /// Sorts [`MOST`] spheres at most.
-    pub(super) fn new(spheres: &Spheres<V>) -> Self {
-        let spheres = spheres.as_slice();
+    pub(super) fn new(spheres: &[Sphere<V>]) -> Self {
         let mut members = Vec::with_capacity(spheres.len());
         let mut apart = Vec::new();
         let mut unreachable = Vec::new();
@@ -104,12 +100,12 @@ pub(super) fn leaf<V: Vector>(
     members: &[Member],
     spheres: &[Sphere<V>],
 ) -> Option<(Leaf<V::Scalar>, Bounds)> {
-    let sphere_of = |member: &Member| &spheres[member.index as usize];
-    let first = members.first()?;
-    let mut leaf = Leaf::filled(NONE, &Sphere::new(sphere_of(first).center, V::Scalar::ZERO));
+    // All first: they may be anywhere in memory, and one is not waited for before the next is asked for.
+    let spheres: ArrayVec<Sphere<V>, LANES> =
+        members.iter().take(LANES).map(|member| spheres[member.index as usize]).collect();
+    let mut leaf = Leaf::filled(NONE, &Sphere::new(spheres.first()?.center, V::Scalar::ZERO));
     let mut bounds = Bounds::NONE;
-    for (lane, member) in members.iter().enumerate() {
-        let sphere = sphere_of(member);
+    for (lane, (member, sphere)) in members.iter().zip(&spheres).enumerate() {
         leaf.set(lane, member.index, sphere);
         bounds = bounds.and(Bounds::of(sphere));
     }

@@ -1,11 +1,12 @@
 //! Which of 16 spheres a ray may meet, in f32 and many lanes at a time. A sphere may pass though the ray misses it; none is
 //! dropped that is hit.
 //!
-//! A hit with t in (0, end) is a point of the segment from the ray's origin to `end`. So a sphere is dropped where its center
-//! is farther from that segment than the radius: with o = c - p, a = d·d and e = d / a,
+//! A hit with t from `start` to `end` is a point of that segment of the ray; [`local`](crate::spheres::local) rounds the two
+//! outwards. So a sphere is dropped where its center is farther from the segment than the radius: with o = c - p, a = d·d and
+//! e = d / a,
 //!
 //! ```text
-//! m = o·e, but at least 0 and at most end
+//! m = o·e, but at least start and at most end
 //! w = o - m d
 //! |w|² > R²,   R = r, made larger
 //! ```
@@ -29,8 +30,9 @@
 //! ```
 //!
 //! **Rounded numbers.** Spheres are in the coordinates of the world and in the scene's own precision, and so is p. Only o is
-//! `f32`. The direction may be rounded to `f32`, which moves the point at t by u t |d| ≤ u (r + m |d|); r too, by u r; and where
-//! p has been moved along the ray, it is off by what [`Tube::moved`] adds to every radius. That makes r (1 + 13 u) + 12 u m |d|.
+//! `f32`. The direction may be rounded to `f32`, which moves the point at t by u t |d| ≤ u (r + m |d|), for the hit is at most half
+//! a chord beyond m; r too, by u r; and where p has been moved along the ray, it is off by what [`Tube::moved`] adds to every
+//! radius. That makes r (1 + 13 u) + 12 u m |d|.
 //!
 //! |w|² - R² is the sum of x² + y², off by 2 u (x² + y²), and of z² - R², off by u z², u R² and the rounding of the difference,
 //! u R²; to round the sum of the two changes no sign. That is at most 4 u R², or 2 u of R. R takes two more roundings: 4 u in
@@ -39,8 +41,11 @@
 //! smaller.
 //!
 //! **Overflow and underflow.** Lengths up to 2⁶⁰ and directions of 2⁻³⁰ to 2⁶⁰ keep every intermediate result finite: |o| < 2⁶²,
-//! m < 2⁹². A product that underflows is off by 2⁻¹⁵⁰: in m d that makes 2⁻⁸⁸, and [`LEAST`], 2⁻⁶⁰, which each R has added to
-//! it, is more; R² is then at least 2⁻¹²⁰ above r², and |w|² off by 2⁻¹⁴⁸ at most.
+//! and m < 2⁹² for a sphere that is hit, wherever the range starts. A product that underflows is off by 2⁻¹⁵⁰: in m d that makes
+//! 2⁻⁸⁸, and [`LEAST`], 2⁻⁶⁰, which each R has added to it, is more; R² is then at least 2⁻¹²⁰ above r², and |w|² off by 2⁻¹⁴⁸ at
+//! most.
+
+use core::mem::size_of;
 
 use glam::{DVec3, Vec4};
 
@@ -119,7 +124,7 @@ impl<S: Scalar> Leaf<S> {
         self.index[lane]
     }
 
-    /// The spheres that the ray may meet before `end`, a bit for each.
+    /// The spheres that the ray may meet from a start to an end, a bit for each.
     ///
     /// Of those, m goes to `closest` and |w|² - R² to `clearances`.
     #[inline(always)]
@@ -127,13 +132,20 @@ impl<S: Scalar> Leaf<S> {
         &self,
         instructions: I,
         tube: &Tube<S>,
-        end: f32,
+        limits: [f32; 2],
         closest: &mut [f32; LANES],
         clearances: &mut [f32; LANES],
     ) -> u32 {
         let origin = tube.origin;
-        let offset = |center: S, axis: usize| to_f32(center - origin[axis]);
-        self.near_origin(instructions, tube, offset, end, closest, clearances)
+        let offset = |lane: usize, axis: usize| to_f32(self.center[axis][lane] - origin[axis]);
+        if size_of::<S>() == size_of::<f32>() {
+            let sphere = |lane| {
+                (offset(lane, 0), offset(lane, 1), offset(lane, 2), to_f32(self.radius[lane]))
+            };
+            self.near_origin(instructions, tube, sphere, limits, closest, clearances)
+        } else {
+            self.near_narrowed(instructions, tube, offset, limits, closest, clearances)
+        }
     }
 
     /// [`near`](Self::near) of a ray that begins anew.
@@ -142,23 +154,49 @@ impl<S: Scalar> Leaf<S> {
         &self,
         instructions: I,
         tube: &Tube<S>,
-        end: f32,
+        limits: [f32; 2],
         closest: &mut [f32; LANES],
         clearances: &mut [f32; LANES],
     ) -> u32 {
         let origin = tube.moved_origin;
-        let offset = |center: S, axis: usize| to_f32(center.into() - origin[axis]);
-        self.near_origin(instructions, tube, offset, end, closest, clearances)
+        let offset =
+            |lane: usize, axis: usize| to_f32(self.center[axis][lane].into() - origin[axis]);
+        self.near_narrowed(instructions, tube, offset, limits, closest, clearances)
     }
 
-    /// The same with what a coordinate of a center is, relative to the ray's origin.
+    /// The same with the coordinates of a lane relative to the ray's origin. All are rounded to `f32` before anything else is done
+    /// with them: in one loop with `f64`, a vector would hold no more of what is `f32`.
+    #[inline(always)]
+    fn near_narrowed<I: Instructions>(
+        &self,
+        instructions: I,
+        tube: &Tube<S>,
+        offset: impl Fn(usize, usize) -> f32,
+        limits: [f32; 2],
+        closest: &mut [f32; LANES],
+        clearances: &mut [f32; LANES],
+    ) -> u32 {
+        let mut narrowed = [[0.0; LANES]; 4];
+        for lane in 0..LANES {
+            narrowed[0][lane] = offset(lane, 0);
+            narrowed[1][lane] = offset(lane, 1);
+            narrowed[2][lane] = offset(lane, 2);
+            narrowed[3][lane] = to_f32(self.radius[lane]);
+        }
+        let sphere = |lane: usize| {
+            (narrowed[0][lane], narrowed[1][lane], narrowed[2][lane], narrowed[3][lane])
+        };
+        self.near_origin(instructions, tube, sphere, limits, closest, clearances)
+    }
+
+    /// The same with what the coordinates of a lane are, relative to the ray's origin, and the radius.
     #[inline(always)]
     fn near_origin<I: Instructions>(
         &self,
         instructions: I,
         tube: &Tube<S>,
-        offset: impl Fn(S, usize) -> f32,
-        end: f32,
+        sphere: impl Fn(usize) -> (f32, f32, f32, f32),
+        [start, end]: [f32; 2],
         closest: &mut [f32; LANES],
         clearances: &mut [f32; LANES],
     ) -> u32 {
@@ -166,18 +204,16 @@ impl<S: Scalar> Leaf<S> {
         // Arrays of its own, or the compiler would have to store each number before it loads the next.
         let (mut all_closest, mut all_clearances) = ([0.0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
-            let x = offset(self.center[0][lane], 0);
-            let y = offset(self.center[1][lane], 1);
-            let z = offset(self.center[2][lane], 2);
+            let (x, y, z, radius) = sphere(lane);
             let m = instructions.multiply_add(over_a.y, y, over_a.x * x);
             let m = instructions.multiply_add(over_a.z, z, m);
             // Comparisons that are one instruction each: `f32::clamp` looks for NaN.
-            let m = if m > 0.0 { m } else { 0.0 };
+            let m = if m > start { m } else { start };
             let m = if m < end { m } else { end };
             let x = instructions.multiply_add(-m, direction.x, x);
             let y = instructions.multiply_add(-m, direction.y, y);
             let z = instructions.multiply_add(-m, direction.z, z);
-            let radius = instructions.multiply_add(to_f32(self.radius[lane]), radius_factor, least);
+            let radius = instructions.multiply_add(radius, radius_factor, least);
             let radius = instructions.multiply_add(widening, m, radius);
             // Two halves, neither of which waits for the other.
             let one = instructions.multiply_add(y, y, x * x);
@@ -268,7 +304,7 @@ mod tests {
     struct Near<'a> {
         leaf: &'a Leaf<f32>,
         tube: Tube<f32>,
-        end: f32,
+        limits: [f32; 2],
     }
 
     impl Vectorized for Near<'_> {
@@ -277,7 +313,7 @@ mod tests {
         #[inline(always)]
         fn run<I: Instructions>(self, instructions: I) -> u32 {
             let (mut closest, mut clearances) = ([0.0; LANES], [0.0; LANES]);
-            self.leaf.near(instructions, &self.tube, self.end, &mut closest, &mut clearances)
+            self.leaf.near(instructions, &self.tube, self.limits, &mut closest, &mut clearances)
         }
     }
 
@@ -308,10 +344,19 @@ mod tests {
             let elsewhere = Sphere::new((center + outward * (3.0 * radius + far)).as_vec3(), 0.0);
             let mut leaf = Leaf::filled(0, &elsewhere);
             leaf.set(LANE, 1, &sphere);
-            for end in [f32::INFINITY, f32::from_bits(hit.t.to_bits() + 1)] {
+            let just_after = f32::from_bits(hit.t.to_bits() + 1);
+            let Some([_, exit]) = sphere.roots(&ray) else { continue };
+            // The exact t may be less than the one returned.
+            let before = |t: f32| f32::from_bits(t.to_bits() - 1);
+            for limits in [
+                [0.0, f32::INFINITY],
+                [0.0, just_after],
+                [before(hit.t), f32::INFINITY],
+                [before(exit), f32::INFINITY],
+            ] {
                 hits += 1;
                 let tube = Tube::with_margins(&ray, margins[0], margins[1]);
-                let near = lanes.run(Near { leaf: &leaf, tube, end });
+                let near = lanes.run(Near { leaf: &leaf, tube, limits });
                 assert_eq!(near & !(1 << LANE), 0, "a point elsewhere passed");
                 dropped += u32::from(near == 0);
             }

@@ -43,7 +43,7 @@ pub(super) struct Region<V> {
 }
 
 /// A ray as it goes through a region.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Way<S> {
     pub(super) slabs: Slabs,
     pub(super) tube: Tube<S>,
@@ -52,36 +52,34 @@ pub(super) struct Way<S> {
 }
 
 impl<V: Vector> Region<V> {
-    /// Finds the way of a ray that the filters can compute with. Returns whether it may enter one of the boxes before `end`.
-    // In place: to copy what was just written takes as long as a visit.
+    /// Whether a ray does not come from afar.
     #[inline(always)]
-    pub(super) fn enter(&self, ray: &Ray<V>, end: V::Scalar, way: &mut Way<V::Scalar>) -> bool {
-        let origin = narrow(ray.origin - self.center);
-        if origin.abs().max_element() <= self.extent * FAR {
-            way.slabs = self.slabs(origin, ray);
-            way.tube = Tube::new(ray);
-            way.moved = 0.0;
-            true
-        } else {
-            self.enter_from_afar(ray, end, way)
-        }
+    pub(super) fn is_near(&self, ray: &Ray<V>) -> bool {
+        narrow(ray.origin - self.center).abs().max_element() <= self.extent * FAR
     }
 
+    /// The way of a ray that the filters can compute with. It is of use only if the ray [is near](Self::is_near).
+    #[inline(always)]
+    pub(super) fn way(&self, ray: &Ray<V>) -> Way<V::Scalar> {
+        let slabs = self.slabs(narrow(ray.origin - self.center), ray);
+        Way { slabs, tube: Tube::new(ray), moved: 0.0 }
+    }
+
+    /// The way of one that comes from afar, if it may enter one of the boxes before `end`.
     #[cold]
     #[inline(never)]
-    fn enter_from_afar(&self, ray: &Ray<V>, end: V::Scalar, way: &mut Way<V::Scalar>) -> bool {
+    pub(super) fn way_from_afar(&self, ray: &Ray<V>, end: V::Scalar) -> Option<Way<V::Scalar>> {
         let origin = ray.origin.to_f64() - self.center.to_f64();
         let extent = f64::from(self.extent);
         let approach = Approach::new(origin, ray.direction.to_f64(), extent);
         let farthest = 3.1 * extent * extent + OF_DISTANCE * origin.length_squared();
         let moved = approach.moved(f64::INFINITY);
         let enters = approach.distance_squared() <= farthest && moved.t < end.into();
-        if enters {
-            way.slabs = self.slabs(moved.origin.as_vec3(), ray);
-            way.tube = Tube::moved(ray, moved.t);
-            way.moved = moved.t;
-        }
-        enters
+        enters.then(|| Way {
+            slabs: self.slabs(moved.origin.as_vec3(), ray),
+            tube: Tube::moved(ray, moved.t),
+            moved: moved.t,
+        })
     }
 
     #[inline(always)]

@@ -386,8 +386,9 @@ fn bulk_of(
         let size = extent.centers.high[axis] - extent.centers.low[axis];
         if size > 0.0 && place_of_nearly_all(&counts).is_some() {
             let sample = members.iter().step_by(step).map(|member| member.sphere[axis]);
-            (bulk.low[axis], bulk.high[axis]) =
-                zoom(&sample, extent.centers.low[axis], extent.centers.high[axis]);
+            let (low, high) = zoom(&sample, extent.centers.low[axis], extent.centers.high[axis]);
+            // On either side, what the last bins cut off is still close: it would be a region of its own.
+            (bulk.low[axis], bulk.high[axis]) = (low - (high - low), high + (high - low));
             is_small = true;
         }
     }

@@ -17,7 +17,7 @@ use crate::float::sqrt;
 use crate::root::order::is_nearer;
 use crate::spheres::filter::{LARGEST, Segment};
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
-use crate::spheres::local::{above, local_end, narrow, to_f32};
+use crate::spheres::local::{above, local_end, local_start, narrow, to_f32};
 use crate::{Hit, Hittable, Ray, Scalar, Sphere, Vector};
 
 /// How much waits to be visited at most: of each node on the way to a leaf, all children but one, and of each region the way out.
@@ -47,15 +47,17 @@ pub(super) fn child(key: Key) -> u32 {
 }
 
 /// Numbers of 16 boxes or spheres, where one instruction can write them.
-#[derive(Default)]
+#[derive(Clone, Default)]
 #[repr(align(64))]
 struct Numbers([f32; LANES]);
 
 /// A ray on its way.
-#[derive(Default)]
-struct Query<S> {
+#[derive(Clone, Default)]
+pub(super) struct Query<S> {
     /// Through the region that it is in.
-    way: Way<S>,
+    pub(super) way: Way<S>,
+    /// The start of the range, or 0, as it is on that way.
+    start: f32,
     /// The end of the range, or that of what is nearer than the nearest hit so far, as it is on that way.
     end: f32,
     /// Where the ray enters the boxes of the last node; of the spheres of the last leaf, where it is nearest to the center.
@@ -64,20 +66,47 @@ struct Query<S> {
     clearances: Numbers,
 }
 
+/// Where a range starts for a ray that begins anew at `moved`, which hits nothing before that.
+#[inline(always)]
+fn first_start<V: Vector>(start: V::Scalar, moved: f64) -> f32 {
+    let start = local_start::<V>(start, moved);
+    if start > 0.0 { start } else { 0.0 }
+}
+
 impl<S: Scalar> Query<S> {
     /// Goes into a region. Returns whether the ray may enter one of its boxes before `end`.
-    #[inline(always)]
-    fn enter<V: Vector<Scalar = S>>(&mut self, region: &Region<V>, ray: &Ray<V>, end: S) -> bool {
-        let enters = region.enter(ray, end, &mut self.way);
-        if enters {
-            self.set_end(end);
-        }
-        enters
+    // A call: inlined into the walk, it would be prepared for in each query.
+    #[inline(never)]
+    pub(super) fn enter<V: Vector<Scalar = S>>(
+        &mut self,
+        region: &Region<V>,
+        ray: &Ray<V>,
+        range: Range<S>,
+    ) -> bool {
+        self.way = if region.is_near(ray) {
+            region.way(ray)
+        } else {
+            let Some(way) = region.way_from_afar(ray, range.end) else { return false };
+            way
+        };
+        self.set_range::<V>(range);
+        true
     }
 
     /// Goes back into a region.
-    fn enter_again<V: Vector<Scalar = S>>(&mut self, region: &Region<V>, ray: &Ray<V>, end: S) {
-        region.enter(ray, S::INFINITY, &mut self.way);
+    pub(super) fn enter_again<V: Vector<Scalar = S>>(
+        &mut self,
+        region: &Region<V>,
+        ray: &Ray<V>,
+        range: Range<S>,
+    ) {
+        self.enter(region, ray, range.start..S::INFINITY);
+        self.set_range::<V>(range);
+    }
+
+    #[inline(always)]
+    fn set_range<V: Vector<Scalar = S>>(&mut self, Range { start, end }: Range<S>) {
+        self.start = first_start::<V>(start, self.way.moved);
         self.set_end(end);
     }
 
@@ -86,10 +115,17 @@ impl<S: Scalar> Query<S> {
         self.end = local_end(end, self.way.moved);
     }
 
+    /// Where the ray enters a box of the last node.
+    #[inline(always)]
+    pub(super) fn entry(&self, lane: u32) -> f32 {
+        self.entries.0[lane as usize % LANES]
+    }
+
     /// Which spheres of a leaf the ray may meet.
     #[inline(always)]
-    fn near(&mut self, lanes: Lanes, leaf: &Leaf<S>) -> u32 {
-        if self.way.moved == 0.0 {
+    pub(super) fn near(&mut self, lanes: Lanes, leaf: &Leaf<S>) -> u32 {
+        // As bits, that is one comparison with memory: a float may be NaN.
+        if self.way.moved.to_bits() == 0 {
             lanes.run(Near::<S, false> { leaf, query: self })
         } else {
             lanes.run(Near::<S, true> { leaf, query: self })
@@ -118,9 +154,9 @@ impl<S: Scalar> Query<S> {
 
 /// Asks which boxes of a node the ray enters. These two, and the exact routine, do not share a function: the compiler would save
 /// and restore the vectors. Two references are passed in registers.
-struct Enter<'a, S> {
-    node: &'a Boxes,
-    query: &'a mut Query<S>,
+pub(super) struct Enter<'a, S> {
+    pub(super) node: &'a Boxes,
+    pub(super) query: &'a mut Query<S>,
 }
 
 impl<S: Scalar> Vectorized for Enter<'_, S> {
@@ -128,8 +164,8 @@ impl<S: Scalar> Vectorized for Enter<'_, S> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, instructions: I) -> u32 {
-        let Query { way, end, entries, .. } = self.query;
-        self.node.entered(instructions, &way.slabs, *end, &mut entries.0)
+        let Query { way, start, end, entries, .. } = self.query;
+        self.node.entered(instructions, &way.slabs, [*start, *end], &mut entries.0)
     }
 }
 
@@ -144,32 +180,41 @@ impl<S: Scalar, const MOVED: bool> Vectorized for Near<'_, S, MOVED> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, instructions: I) -> u32 {
-        let Query { way: Way { tube, .. }, end, entries, clearances } = self.query;
+        let Query { way: Way { tube, .. }, start, end, entries, clearances } = self.query;
         let (closest, clearances) = (&mut entries.0, &mut clearances.0);
+        let limits = [*start, *end];
         if MOVED {
-            self.leaf.near_moved(instructions, tube, *end, closest, clearances)
+            self.leaf.near_moved(instructions, tube, limits, closest, clearances)
         } else {
-            self.leaf.near(instructions, tube, *end, closest, clearances)
+            self.leaf.near(instructions, tube, limits, closest, clearances)
         }
     }
 }
 
 impl<V: Vector> Tree<V> {
-    /// Calls `ask` for every sphere in the leaves that the ray may meet before `end`, and perhaps for others, the nearest boxes
+    /// Calls `ask` for every sphere in the leaves that the ray may meet in the range, and perhaps for others, the nearest boxes
     /// first. What it returns is the new end; a negative one ends the walk.
     #[inline(always)]
     fn walk(
         &self,
         lanes: Lanes,
         ray: &Ray<V>,
-        mut end: V::Scalar,
+        Range { start, mut end }: Range<V::Scalar>,
         mut ask: impl FnMut(u32, &Sphere<V>, V::Scalar) -> Option<V::Scalar>,
     ) {
         // A NaN is no end of a range, and would open the boxes of no child.
         let is_range = end > V::Scalar::ZERO;
         let Some(whole) = self.regions.first().filter(|_| is_range) else { return };
-        let mut query = Query::default();
-        if !query.enter(whole, ray, end) {
+        let is_near = whole.is_near(ray);
+        // In either case, and in its place: to copy what was just written takes as long as a visit.
+        let mut query = Query {
+            way: whole.way(ray),
+            start: first_start::<V>(start, 0.0),
+            end: local_end(end, 0.0),
+            entries: Numbers::default(),
+            clearances: Numbers::default(),
+        };
+        if !is_near && !query.enter(whole, ray, start..end) {
             return;
         }
         // Not cleared first: that would take as long as some visits.
@@ -238,7 +283,7 @@ impl<V: Vector> Tree<V> {
                 // No box is entered, or the node is the door of a region.
                 if let Some(inner) = node.region() {
                     let Some(inside) = self.regions.get(inner as usize) else { return };
-                    if query.enter(inside, ray, end) {
+                    if query.enter(inside, ray, start..end) {
                         if !waiting.is_empty() {
                             // There is room for it.
                             let _ = waiting.try_push(key(0.0, outside + region));
@@ -251,7 +296,7 @@ impl<V: Vector> Tree<V> {
             } else {
                 region = place - outside;
                 let Some(back) = self.regions.get(region as usize) else { return };
-                query.enter_again(back, ray, end);
+                query.enter_again(back, ray, start..end);
             }
             loop {
                 let Some(key) = waiting.pop() else { return };
@@ -275,7 +320,7 @@ impl<V: Vector> Tree<V> {
         }
         let Range { start, end } = range;
         let mut nearest = None;
-        self.walk(lanes, ray, end, |index, sphere, end| {
+        self.walk(lanes, ray, start..end, |index, sphere, end| {
             let hit = sphere.intersect(ray, start..end)?;
             self.is_nearer(ray, (index, &hit), nearest.as_ref()).then(|| {
                 nearest = Some((index, hit));
@@ -305,7 +350,7 @@ impl<V: Vector> Tree<V> {
             return true;
         }
         let mut occludes = false;
-        self.walk(lanes, ray, range.end, |_, sphere, _| {
+        self.walk(lanes, ray, range.clone(), |_, sphere, _| {
             occludes = sphere.occludes(ray, range.clone());
             occludes.then_some(-V::Scalar::ONE)
         });
@@ -351,6 +396,6 @@ impl<V: Vector> Tree<V> {
 
 /// Whether the filters can compute with a ray.
 #[inline(always)]
-fn allows<V: Vector>(ray: &Ray<V>) -> bool {
+pub(super) fn allows<V: Vector>(ray: &Ray<V>) -> bool {
     Segment::allows(narrow(ray.origin), narrow(ray.direction), LARGEST * LARGEST)
 }
