@@ -196,9 +196,9 @@ fn is_made_and_taken_apart<V: Vector>(spheres: [Sphere<V>; 3]) {
 }
 
 /// The box is the least that holds the boxes of all, in whatever collection.
-fn bounds_are_those_of_all<V: Vector>(count: usize) {
-    let numbers = |index: usize| {
-        let angle = index as f64;
+fn bounds_are_those_of_all<V: Vector>(count: u32) {
+    let numbers = |index: u32| {
+        let angle = f64::from(index);
         dvec3(angle.sin() * 7.1, (angle * 1.3).cos() * 1e5, angle * 0.01)
     };
     let slice: Vec<Sphere<V>> = (0..count)
