@@ -142,7 +142,7 @@ impl<S: Scalar> Leaf<S> {
             let sphere = |lane| {
                 (offset(lane, 0), offset(lane, 1), offset(lane, 2), to_f32(self.radius[lane]))
             };
-            self.near_origin(instructions, tube, sphere, limits, closest, clearances)
+            Self::near_origin(instructions, tube, sphere, limits, closest, clearances)
         } else {
             self.near_narrowed(instructions, tube, offset, limits, closest, clearances)
         }
@@ -176,23 +176,20 @@ impl<S: Scalar> Leaf<S> {
         closest: &mut [f32; LANES],
         clearances: &mut [f32; LANES],
     ) -> u32 {
-        let mut narrowed = [[0.0; LANES]; 4];
+        let [mut x, mut y, mut z, mut radius] = [[0.0; LANES]; 4];
         for lane in 0..LANES {
-            narrowed[0][lane] = offset(lane, 0);
-            narrowed[1][lane] = offset(lane, 1);
-            narrowed[2][lane] = offset(lane, 2);
-            narrowed[3][lane] = to_f32(self.radius[lane]);
+            x[lane] = offset(lane, 0);
+            y[lane] = offset(lane, 1);
+            z[lane] = offset(lane, 2);
+            radius[lane] = to_f32(self.radius[lane]);
         }
-        let sphere = |lane: usize| {
-            (narrowed[0][lane], narrowed[1][lane], narrowed[2][lane], narrowed[3][lane])
-        };
-        self.near_origin(instructions, tube, sphere, limits, closest, clearances)
+        let sphere = |lane: usize| (x[lane], y[lane], z[lane], radius[lane]);
+        Self::near_origin(instructions, tube, sphere, limits, closest, clearances)
     }
 
     /// The same with what the coordinates of a lane are, relative to the ray's origin, and the radius.
     #[inline(always)]
     fn near_origin<I: Instructions>(
-        &self,
         instructions: I,
         tube: &Tube<S>,
         sphere: impl Fn(usize) -> (f32, f32, f32, f32),
