@@ -150,8 +150,8 @@ mod tests {
         assert_visits(&found, &VISITS_OF_SCENES);
     }
 
-    /// Spheres that move by a tenth of a radius, and then by more and more: as long as the tree is kept, rays visit little more than in one that is
-    /// built anew, and once it is not, no more.
+    /// Spheres that move by a tenth of a radius, and then by more and more: as long as the tree is kept, rays visit little more
+    /// than in one that is built anew, and once it is not, no more.
     #[test]
     fn visits_are_few_where_spheres_move() {
         let mut rng = Rng::new(2);
