@@ -35,7 +35,8 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 ///
 /// It returns what [`nearest`](crate::nearest) returns for a slice of the same spheres, bit for bit: the same hit and the same
 /// index, that of the sphere in front, also where distances round to the same number. It skips groups of spheres whose box the
-/// ray does not enter, or enters beyond the nearest hit so far. The error of these tests is bounded, so they never skip a sphere that is hit.
+/// ray does not enter, or enters beyond the nearest hit so far. The error of these tests is bounded, so they never skip a sphere
+/// that is hit.
 ///
 /// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost nothing. Up to 16 that
 /// are large compared to the extent of the others, such as the ground, are kept apart and tested with each ray. Where the spheres
@@ -46,10 +47,10 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// # When to use it
 ///
 /// For more than some hundred spheres, in `f32` and in `f64`. To build it of 20,000 takes some 5 ms, and of a million less than
-/// half a second: compared with a scan of 20,000, that pays from some 1,500 rays a frame (`cargo bench --bench sphere_scenes`). If
-/// the spheres move, [`update`](Self::update) takes less. So few spheres that a scan is faster are scanned, as [`Spheres`] does. It
-/// takes 26 to 32 bytes a sphere, and at most 56 in `f64`. (In the repository, `cargo bench
-/// --manifest-path benches/peers/Cargo.toml --bench many_spheres` measures it beside other libraries.)
+/// half a second: compared with a scan of 20,000, that pays from some 1,500 rays a frame (`cargo bench --bench sphere_scenes`).
+/// If the spheres move, [`update`](Self::update) takes less. So few spheres that a scan is faster are scanned, as [`Spheres`]
+/// does. It takes 26 to 32 bytes a sphere, and at most 56 in `f64`. (In the repository, `cargo bench --manifest-path
+/// benches/peers/Cargo.toml --bench many_spheres` measures it beside other libraries.)
 ///
 /// # How
 ///
@@ -132,10 +133,10 @@ impl<V: Vector> SphereBvh<V> {
 
     /// Moves the spheres: the one at each index is replaced by the one at the same index of the slice.
     ///
-    /// All queries then return what they return of a hierarchy that is built of these spheres. The time differs: while spheres are
-    /// still near where they were, this only makes new boxes around them, which takes a part of the time of building. Once boxes
-    /// have grown by more than a little, on average, or a sphere is of another kind, such as one that no ray could hit, it builds
-    /// the hierarchy anew. So it does if the number of spheres differs.
+    /// All queries then return what they return of a hierarchy that is built of these spheres. The time differs: while spheres
+    /// are still near where they were, this only makes new boxes around them, which takes a part of the time of building. Once
+    /// boxes have grown by more than a little, on average, or a sphere is of another kind, such as one that no ray could hit, it
+    /// builds the hierarchy anew. So it does if the number of spheres differs.
     ///
     /// ```
     /// use eyeray::{Ray, Sphere, SphereBvh};

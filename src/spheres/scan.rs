@@ -1,5 +1,5 @@
-//! A collection of few spheres, or of few rays between changes, which are all tested: by a filter over many lanes, and the few that pass by the exact
-//! routine.
+//! A collection of few spheres, or of few rays between changes, which are all tested: by a filter over many lanes, and the few
+//! that pass by the exact routine.
 
 use alloc::vec::Vec;
 use core::ops::Range;

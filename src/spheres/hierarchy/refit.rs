@@ -2,8 +2,8 @@
 //!
 //! The farther spheres move, the more their boxes grow and overlap. How large a box is, is told by the sum of its sides, and how
 //! good the tree still is by how many times as large its boxes are, on average, as when it was built. Where a node has become
-//! smaller, the boxes in it should have, too: they count in proportion to it. So neither the scale of the scene matters nor that of
-//! its parts, and one sphere that flies away is noticed.
+//! smaller, the boxes in it should have, too: they count in proportion to it. So neither the scale of the scene matters nor that
+//! of its parts, and one sphere that flies away is noticed.
 
 use alloc::vec::Vec;
 
@@ -25,7 +25,8 @@ const MOST_GROWTH: f32 = 1.06;
 /// From which excess of growth on, as a part of the number of all boxes, the others need not be looked at.
 const ABANDON: f32 = 1.0 / 16.0;
 
-/// How far from the center of a region the box around it may reach, in half its size: it is 1 where the center is that of the box.
+/// How far from the center of a region the box around it may reach, in half its size: it is 1 where the center is that of the
+/// box.
 const MOST_REACH: f32 = 2.0;
 
 impl<V: Vector> Tree<V> {

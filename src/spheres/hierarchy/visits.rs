@@ -86,8 +86,8 @@ mod tests {
         taken()
     }
 
-    /// Checks what rays visit against numbers of nodes, leaves and spheres, with every set of instructions. What is allowed more, a
-    /// hundredth, is for roundings that differ between them.
+    /// Checks what rays visit against numbers of nodes, leaves and spheres, with every set of instructions. What is allowed more,
+    /// a hundredth, is for roundings that differ between them.
     fn assert_visits(found: &[(&str, Lanes, [u32; 3])], limits: &[(&str, [u32; 3])]) {
         for &(name, lanes, visits) in found {
             let of_name = limits.iter().find(|(other, _)| *other == name);
