@@ -108,11 +108,14 @@ impl Setting {
 #[expect(clippy::cast_possible_truncation, reason = "it is rounded already")]
 fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
     let side = side_of(half_chord);
-    if Format::F32.has_few_steps() {
-        return root_carefully(line, Format::F32, side).map(|t| t as f32);
-    }
-    let compare = |midpoint| integers::compare_root(line, side, midpoint);
-    Format::F32.round(t.into(), plain::ROOT_ERROR / CLEAR, compare).map(|t| t as f32)
+    let rounded = if Format::F32.has_few_steps() {
+        None
+    } else {
+        let compare = |midpoint| integers::compare_root(line, side, midpoint);
+        Format::F32.round(t.into(), plain::ROOT_ERROR / CLEAR, compare)
+    };
+    // Only the root is asked for, so that the point is the plain step's, with many steps and with few.
+    rounded.or_else(|| root_carefully(line, Format::F32, side)).map(|t| t as f32)
 }
 
 /// Finds the nearest hit of a line that starts exactly on the surface: its roots are 0 and 2 h / a.
