@@ -83,6 +83,7 @@ impl<V: Vector> Hit<V> {
     /// assert!([up, leaving].iter().all(|ray| !Floor.occludes(ray, -2.0..2.0)));
     /// ```
     #[inline]
+    #[must_use]
     pub const fn new(t: V::Scalar, point: V, normal: V, error: V::Scalar) -> Self {
         Self { t, point, normal, error }
     }

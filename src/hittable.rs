@@ -74,6 +74,7 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     /// assert_eq!(sphere.roots(&ray).map(is_inside), Some(false));
     /// ```
     #[doc(alias("raycast", "ray_cast", "cast_ray", "trace", "hit"))]
+    #[must_use]
     fn intersect(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>>;
 
     /// Returns whether the ray hits anything with `t` in `range`, for shadow rays and lines of sight.
@@ -108,6 +109,7 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     /// ```
     #[inline]
     #[doc(alias("occluded", "shadow_ray", "any_hit", "line_of_sight"))]
+    #[must_use]
     fn occludes(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         self.intersect(ray, range).is_some()
     }
@@ -118,6 +120,7 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     /// changes what they return. The default implementation returns `true`. A shape that contains a sphere, such as a sphere with a
     /// material, should forward the call to the sphere.
     #[inline]
+    #[must_use]
     fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         let _ = (ray, range);
         true
@@ -162,6 +165,7 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     /// assert_eq!(found.map(|(index, _)| balls[index].color), Some(Vec3::Y));
     /// ```
     #[inline]
+    #[must_use]
     fn as_sphere(&self) -> Option<Sphere<V>> {
         None
     }

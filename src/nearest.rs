@@ -28,6 +28,7 @@ pub trait Nearest<V: Vector = glam::Vec3>: Hittable<V> {
     /// Returns the nearest hit with `t` > 0 and in `range`, and the index of the object hit.
     ///
     /// Of equal `t`, it is that of [`nearest`](crate::nearest). [`intersect`](Hittable::intersect) returns the same hit.
+    #[must_use]
     fn nearest(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<(usize, Hit<V>)>;
 }
 

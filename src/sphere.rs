@@ -73,6 +73,7 @@ pub struct Sphere<V: Vector = glam::Vec3> {
 impl<V: Vector> Sphere<V> {
     /// Creates a sphere. Any value is allowed.
     #[inline]
+    #[must_use]
     pub const fn new(center: V, radius: V::Scalar) -> Self {
         Self { center, radius }
     }
@@ -93,6 +94,7 @@ impl<V: Vector> Sphere<V> {
     /// assert!(f64::from(low.x) <= 0.5 - f64::from(sphere.radius));
     /// assert!(f64::from(high.x) >= 0.5 + f64::from(sphere.radius));
     /// ```
+    #[must_use]
     pub fn bounds(&self) -> (V, V) {
         V::perform(Bounds(self))
     }
@@ -115,6 +117,7 @@ impl<V: Vector> Sphere<V> {
     /// assert_eq!(sphere.roots(&ray).map(is_inside), Some(false));
     /// ```
     #[inline(always)]
+    #[must_use]
     pub fn roots(&self, ray: &Ray<V>) -> Option<[V::Scalar; 2]> {
         self.roots_by::<Quadratic>(ray)
     }
@@ -131,6 +134,7 @@ impl<V: Vector> Sphere<V> {
     /// assert_eq!(sphere.roots_algebraic(&ray), Some([-2.5, 1.5]));
     /// ```
     #[inline(always)]
+    #[must_use]
     pub fn roots_algebraic(&self, ray: &Ray<V>) -> Option<[V::Scalar; 2]> {
         self.roots_by::<Quadratic>(ray)
     }
@@ -148,6 +152,7 @@ impl<V: Vector> Sphere<V> {
     /// assert_eq!(sphere.roots_geometric(&ray), Some([3.0, 3.0]));
     /// ```
     #[inline(always)]
+    #[must_use]
     pub fn roots_geometric(&self, ray: &Ray<V>) -> Option<[V::Scalar; 2]> {
         self.roots_by::<ClosestApproach>(ray)
     }
@@ -178,6 +183,7 @@ impl<V: Vector> Sphere<V> {
     /// assert_eq!(entry.map(|entry| (entry.t, entry.point)), Some((1e17, DVec3::Z)));
     /// assert_eq!(exit.map(|exit| (exit.t, exit.point)), Some((1e17, DVec3::NEG_Z)));
     /// ```
+    #[must_use]
     pub fn exit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<Hit<V>> {
         let [near, far] = self.roots(ray)?;
         if !range.contains(&far) {

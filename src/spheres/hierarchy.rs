@@ -38,11 +38,24 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// ray does not enter, or enters beyond the nearest hit so far. The error of these tests is bounded, so they never skip a sphere
 /// that is hit.
 ///
+/// ```
+/// use eyeray::{Ray, Sphere, SphereBvh};
+/// use glam::{Vec3, vec3};
+///
+/// // A square of 90,000 spheres, seen from above.
+/// let spheres: SphereBvh = (0..300_u16)
+///     .flat_map(|i| (0..300_u16).map(move |k| vec3(f32::from(i), 0.0, f32::from(k))))
+///     .map(|center| Sphere::new(center, 0.25))
+///     .collect();
+///
+/// let down = Ray::new(vec3(7.0, 10.0, 12.0), Vec3::NEG_Y);
+/// let found = spheres.nearest(&down, 0.0..f32::INFINITY);
+/// assert_eq!(found.map(|(index, hit)| (index, hit.t)), Some((7 * 300 + 12, 9.75)));
+/// ```
+///
 /// Any spheres are allowed. Those that no ray can hit, with a NaN, an infinity or a negative radius, cost nothing. Up to 16 that
 /// are large compared to the extent of the others, such as the ground, are kept apart and tested with each ray. Where the spheres
-/// are does not matter: far from the world's origin, a few far from all others, or in clusters far apart. A sphere with a
-/// coordinate or a radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin is farther
-/// than 2⁶⁰ from the world's, or whose direction is longer than that or shorter than 2⁻³⁰.
+/// are does not matter: far from the world's origin, a few far from all others, or in clusters far apart.
 ///
 /// # When to use it
 ///
@@ -58,20 +71,10 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// Packets*, 2008). Their boxes are in `f32` in both precisions, around centers of their own. A surface-area heuristic sorts the
 /// spheres into them, and prefers to fill them. The instructions are those that [`Spheres`] uses.
 ///
-/// ```
-/// use eyeray::{Ray, Sphere, SphereBvh};
-/// use glam::{Vec3, vec3};
+/// # Limits
 ///
-/// // A square of 90,000 spheres, seen from above.
-/// let spheres: SphereBvh = (0..300_u16)
-///     .flat_map(|i| (0..300_u16).map(move |k| vec3(f32::from(i), 0.0, f32::from(k))))
-///     .map(|center| Sphere::new(center, 0.25))
-///     .collect();
-///
-/// let down = Ray::new(vec3(7.0, 10.0, 12.0), Vec3::NEG_Y);
-/// let found = spheres.nearest(&down, 0.0..f32::INFINITY);
-/// assert_eq!(found.map(|(index, hit)| (index, hit.t)), Some((7 * 300 + 12, 9.75)));
-/// ```
+/// A sphere with a coordinate or a radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin
+/// is farther than 2⁶⁰ from the world's, or whose direction is longer than that or shorter than 2⁻³⁰.
 #[derive(Clone)]
 pub struct SphereBvh<V: Vector = Vec3>(pub(super) Shape<V>);
 
@@ -170,6 +173,7 @@ impl<V: Vector> SphereBvh<V> {
 
     /// Returns the number of spheres.
     #[inline]
+    #[must_use]
     pub fn len(&self) -> usize {
         match &self.0 {
             Shape::Scan(spheres) => spheres.len(),
@@ -179,11 +183,13 @@ impl<V: Vector> SphereBvh<V> {
 
     /// Returns whether there are no spheres.
     #[inline]
+    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
     /// Returns the sphere at `index`, or `None` if `index` is out of bounds.
+    #[must_use]
     pub fn get(&self, index: usize) -> Option<Sphere<V>> {
         match &self.0 {
             Shape::Scan(spheres) => spheres.get(index),
@@ -202,6 +208,7 @@ impl<V: Vector> SphereBvh<V> {
     ///
     /// Spheres that no ray can hit do not count. Without others, the box is empty: from +∞ to -∞. It takes time in proportion to
     /// the number of spheres. [`Spheres::bounds`] has an example.
+    #[must_use]
     pub fn bounds(&self) -> (V, V) {
         Bounds::of_all(self.iter()).corners()
     }
@@ -209,6 +216,7 @@ impl<V: Vector> SphereBvh<V> {
     /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the sphere in
     /// front by the exact roots, and of equal exact roots the lowest index.
     #[inline]
+    #[must_use]
     pub fn nearest(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<(usize, Hit<V>)> {
         match &self.0 {
             Shape::Scan(spheres) => spheres.nearest(ray, range),

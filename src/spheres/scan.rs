@@ -211,24 +211,28 @@ impl<V: Vector> Spheres<V> {
 
     /// Returns the number of spheres.
     #[inline]
+    #[must_use]
     pub fn len(&self) -> usize {
         self.spheres.len()
     }
 
     /// Returns whether there are no spheres.
     #[inline]
+    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.spheres.is_empty()
     }
 
     /// Returns the sphere at `index`, or `None` if `index` is out of bounds.
     #[inline]
+    #[must_use]
     pub fn get(&self, index: usize) -> Option<Sphere<V>> {
         self.spheres.get(index).copied()
     }
 
     /// Returns a slice of all spheres, by ascending index.
     #[inline]
+    #[must_use]
     pub fn as_slice(&self) -> &[Sphere<V>] {
         &self.spheres
     }
@@ -268,6 +272,7 @@ impl<V: Vector> Spheres<V> {
     /// # Ok(())
     /// # }
     /// ```
+    #[must_use]
     pub fn bounds(&self) -> (V, V) {
         Bounds::of_all(self.iter()).corners()
     }
@@ -275,6 +280,7 @@ impl<V: Vector> Spheres<V> {
     /// Returns the nearest hit with `t` in `range`, and the index of its sphere: of equal `t`, the sphere in
     /// front by the exact roots, and of equal exact roots the lowest index.
     #[inline]
+    #[must_use]
     pub fn nearest(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> Option<(usize, Hit<V>)> {
         if self.len() <= FEW {
             return self.nearest_of(self.few_near(ray, range.start), ray, range);
