@@ -63,6 +63,7 @@ fn compare_at<V: Vector>(t: V::Scalar, ray: &Ray<V>, spheres: [Option<Sphere<V>>
 
 /// Compares two crossings of one ray, which both exist: `Less` where the first comes before the second, `Equal` only where their
 /// exact roots are equal. The result does not depend on `t`, but takes less time where that is close to both.
+#[cfg(any(test, feature = "alloc"))]
 pub(crate) fn compare_crossings<V: Vector>(
     ray: &Ray<V>,
     t: V::Scalar,
