@@ -107,6 +107,26 @@ macro_rules! matrices {
 
             fn projection(convention: Convention, lens: Lens) -> Self::Mat4 {
                 use glam::$camera::{lh, rh};
+                let is_frustum = matches!(convention.kind, Kind::Frustum | Kind::ReversedFrustum);
+                if convention.is_left_handed && is_frustum {
+                    // z is the other way. The left-handed frusta of glam's older versions move x and y the wrong way.
+                    let right_handed = Convention { is_left_handed: false, ..convention };
+                    let mut matrix = Self::projection(right_handed, lens);
+                    matrix.z_axis = -matrix.z_axis;
+                    return matrix;
+                }
+                let is_orthographic =
+                    matches!(convention.kind, Kind::Orthographic | Kind::ReversedOrthographic);
+                if matches!(convention.api, Api::Vulkan) && is_orthographic {
+                    // y is the other way, which older versions of glam forget in the translation.
+                    let directx = Convention { api: Api::DirectX, ..convention };
+                    let mut matrix = Self::projection(directx, lens);
+                    let [x, y] = [&mut matrix.x_axis, &mut matrix.y_axis];
+                    (x.y, y.y) = (-x.y, -y.y);
+                    let [z, w] = [&mut matrix.z_axis, &mut matrix.w_axis];
+                    (z.y, w.y) = (-z.y, -w.y);
+                    return matrix;
+                }
                 let number = <Self as Vector>::Scalar::from_f64;
                 let Lens { view, near, far, fov_y, aspect } = lens;
                 let [near, far, fov_y, aspect] = [near, far, fov_y, aspect].map(number);
