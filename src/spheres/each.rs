@@ -5,13 +5,13 @@ use core::ops::Range;
 use super::filter::is_in_reach;
 use super::hierarchy::Shape;
 use super::lanes::Lanes;
-use super::local::{above, narrow, to_f32};
+use super::local::{narrow, to_f32};
 use super::middle::Middle;
 use super::packet::bounds::{Meet, Met};
 use super::packet::{Around, Mask, Packet, Question, RAYS};
 use super::scan::Bits;
 use super::{SphereBvh, Spheres};
-use crate::root::order::is_nearer;
+use crate::root::order::{is_nearer, next_above};
 use crate::{Hit, Hittable, Ray, Sphere, Vector};
 
 /// What is found for each ray: which sphere, and where.
@@ -83,7 +83,7 @@ impl<V: Vector, C: Collection<V>> Question<V> for Nearest<'_, V, C> {
             }
             self.ask_exactly(ray_place, place);
             if let Some(Some((_, hit))) = self.found.get(ray_place) {
-                packet.set_nearest(ray_place, to_f32(hit.t), to_f32(above::<V>(hit.t)));
+                packet.set_nearest(ray_place, to_f32(hit.t), to_f32(next_above::<V>(hit.t)));
             }
         }
     }

@@ -39,26 +39,6 @@ pub(super) fn to_f32<S: Into<f64>>(number: S) -> f32 {
     number.into() as f32
 }
 
-/// The float after one that is positive and finite.
-#[inline(always)]
-pub(super) fn above<V: Vector>(t: V::Scalar) -> V::Scalar {
-    struct Above<S>(S);
-
-    impl<V: Vector> Operation<V> for Above<V::Scalar> {
-        type Output = V::Scalar;
-
-        #[inline(always)]
-        fn run(self) -> V::Scalar
-        where
-            V: Internal,
-        {
-            V::next_above(self.0)
-        }
-    }
-
-    V::perform(Above(t))
-}
-
 /// The float before one that is positive.
 #[inline(always)]
 fn below<V: Vector>(t: V::Scalar) -> V::Scalar {

@@ -15,10 +15,10 @@ use super::split::{DEEPEST, MOST_NESTED};
 use super::visits::{self, Visit};
 use super::{LEAF, Tree};
 use crate::float::sqrt;
-use crate::root::order::is_nearer;
+use crate::root::order::{is_nearer, next_above};
 use crate::spheres::filter::{LARGEST, Segment};
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
-use crate::spheres::local::{above, local_end, local_start, narrow, to_f32};
+use crate::spheres::local::{local_end, local_start, narrow, to_f32};
 use crate::{Hit, Hittable, Ray, Scalar, Sphere, Vector};
 
 /// How much waits to be visited at most: of each node on the way to a leaf, all children but one, and of each region the way out.
@@ -329,11 +329,11 @@ impl<V: Vector> Tree<V> {
             self.is_nearer(ray, (index, &hit), nearest.as_ref()).then(|| {
                 nearest = Some((index, hit));
                 // Equal distances too: they may be those of a lower index.
-                above::<V>(hit.t)
+                next_above::<V>(hit.t)
             })
         });
         if !self.apart.is_empty() {
-            let end = nearest.map_or(end, |(_, hit)| above::<V>(hit.t));
+            let end = nearest.map_or(end, |(_, hit)| next_above::<V>(hit.t));
             if let Some((place, hit)) = self.apart.nearest_in_lanes(lanes, ray, start..end) {
                 let found = (*self.apart_indices.get(place)?, hit);
                 if self.is_nearer(ray, (found.0, &found.1), nearest.as_ref()) {
@@ -374,7 +374,7 @@ impl<V: Vector> Tree<V> {
             let hit = self.at_place(place).and_then(|sphere| sphere.intersect(ray, start..end));
             if let Some(hit) = hit {
                 if self.is_nearer(ray, (number(index), &hit), nearest.as_ref()) {
-                    end = above::<V>(hit.t);
+                    end = next_above::<V>(hit.t);
                     nearest = Some((number(index), hit));
                 }
             }

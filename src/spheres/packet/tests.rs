@@ -8,7 +8,7 @@ use sobol_burley::sample;
 use super::bounds::{Margins, Meet, Met};
 use super::*;
 use crate::Hittable;
-use crate::spheres::local::above;
+use crate::root::order::next_above;
 
 /// Takes any rays.
 const ANY: Around =
@@ -63,7 +63,7 @@ fn wrong_bounds(margins: Margins, far: f64, lanes: Lanes, cases: u32) -> u32 {
     for case in 0..cases {
         let (ray, sphere) = at_the_limb(case, far);
         let hit = sphere.intersect(&ray, 0.0..f32::INFINITY);
-        let behind = hit.map_or(0.0, |hit| above::<Vec3>(hit.t));
+        let behind = hit.map_or(0.0, |hit| next_above::<Vec3>(hit.t));
         for range in [0.0..f32::INFINITY, behind..f32::INFINITY] {
             let expected = sphere.intersect(&ray, range.clone()).map(|hit| hit.t);
             if packet.load(lanes, &[ray; FEWEST], &range, ANY) == 0 {
@@ -74,7 +74,7 @@ fn wrong_bounds(margins: Margins, far: f64, lanes: Lanes, cases: u32) -> u32 {
             let Sixteen { lower, end, .. } = &packet.sixteens[0];
             sure += u32::from(met.surely != 0);
             wrong += u32::from(match expected {
-                Some(t) if met.surely != 0 => !(lower[0] <= t && above::<Vec3>(t) <= end[0]),
+                Some(t) if met.surely != 0 => !(lower[0] <= t && next_above::<Vec3>(t) <= end[0]),
                 Some(_) => met.doubtfully == 0,
                 None => met.surely != 0,
             });

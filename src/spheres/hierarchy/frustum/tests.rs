@@ -5,8 +5,9 @@ use sobol_burley::sample;
 
 use super::super::boxes::MARGIN;
 use super::*;
+use crate::root::order::next_above;
 use crate::spheres::lanes::Lanes;
-use crate::spheres::local::{above, to_f32};
+use crate::spheres::local::to_f32;
 use crate::spheres::packet::Around;
 use crate::{Hittable, Ray, Sphere};
 
@@ -87,7 +88,7 @@ fn dropped([of_frustum, of_rays]: [f32; 2], lanes: Lanes, cases: u32) -> [u32; 2
         );
         boxes.set(LANE, (low, high));
         let region = Region { center, extent: low.abs().max(high.abs()).max_element(), root: 0 };
-        for end in [f32::INFINITY, above::<Vec3>(hit.t)] {
+        for end in [f32::INFINITY, next_above::<Vec3>(hit.t)] {
             hits += 1;
             assert_ne!(packet.load(lanes, &[ray; 4], &(0.0..end), ANY), 0, "{ray:?}");
             let frustum = Frustum::new(&packet, &region, of_frustum);
