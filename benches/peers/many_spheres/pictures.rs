@@ -28,17 +28,13 @@ fn times<const N: usize>(rounds: usize, rays: usize, passes: [&mut dyn FnMut(); 
     })
 }
 
-/// The numbers of 16 rays, as Embree takes them. Of fewer, the last ones are those of no ray.
+/// The numbers of 16 rays, as Embree takes them. Of fewer, the first is there again: Embree's assertions refuse a NaN.
 fn sixteens(rays: &[Ray]) -> Vec<[[f32; 16]; 6]> {
     let sixteen = |rays: &[Ray]| {
-        let mut numbers = [[f32::NAN; 16]; 6];
-        for (place, ray) in rays.iter().enumerate() {
-            let all = ray.origin.to_array().into_iter().chain(ray.direction.to_array());
-            for (numbers, number) in numbers.iter_mut().zip(all) {
-                numbers[place] = number;
-            }
-        }
-        numbers
+        let number = |ray: &Ray, k: usize| [ray.origin, ray.direction][k / 3][k % 3];
+        let of_all =
+            |k| std::array::from_fn(|place| number(rays.get(place).unwrap_or(&rays[0]), k));
+        std::array::from_fn(of_all)
     };
     rays.chunks(16).map(sixteen).collect()
 }
