@@ -11,9 +11,10 @@
 //! cargo run --release --example render -- --width 800 --height 450 --samples 1024 --output examples/render.png
 //! ```
 //!
-//! The crate creates the eye rays ([`eyeray::Camera`]), finds their nearest hits ([`eyeray::Spheres::nearest`]), tests whether a
-//! lamp is in sight ([`eyeray::Hittable::occludes`]) and creates the rays that leave a surface ([`eyeray::Hit::spawn`]). There is no
-//! epsilon to tune: each range begins at 0, and no surface shadows itself.
+//! The crate creates the eye rays ([`eyeray::Camera`]), finds the nearest hits of all those of a pixel at once
+//! ([`eyeray::Spheres::nearest_each`]), creates the rays that leave a surface ([`eyeray::Hit::spawn`]), finds the nearest hit of
+//! each ([`eyeray::Spheres::nearest`]) and tests whether a lamp is in sight ([`eyeray::Hittable::occludes`]). There is no epsilon
+//! to tune: each range begins at 0, and no surface shadows itself.
 
 mod arguments;
 #[path = "../shared/command_line.rs"]

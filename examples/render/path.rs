@@ -9,14 +9,19 @@ use crate::material::Material;
 use crate::sampler::Sampler;
 use crate::scene::{Scene, sky};
 
-/// An unbiased estimate of the radiance that arrives along `ray`.
-pub(crate) fn radiance(scene: &Scene, mut ray: Ray, sampler: &mut Sampler) -> Vec3 {
+/// An unbiased estimate of the radiance that arrives along `ray`, from its nearest hit and the index of that sphere.
+pub(crate) fn radiance(
+    scene: &Scene,
+    mut ray: Ray,
+    mut found: Option<(usize, Hit)>,
+    sampler: &mut Sampler,
+) -> Vec3 {
     let mut radiance = Vec3::ZERO;
     let mut throughput = Vec3::ONE;
     // A diffuse surface asks every lamp for its light: met by chance as well, that light would count twice.
     let mut lamps_counted = false;
     for bounce in 0.. {
-        let Some((index, hit)) = scene.spheres.nearest(&ray, 0.0..f32::INFINITY) else {
+        let Some((index, hit)) = found else {
             radiance += throughput * sky(ray.direction);
             break;
         };
@@ -44,6 +49,7 @@ pub(crate) fn radiance(scene: &Scene, mut ray: Ray, sampler: &mut Sampler) -> Ve
             throughput /= survival;
         }
         ray = hit.spawn(scatter.direction);
+        found = scene.spheres.nearest(&ray, 0.0..f32::INFINITY);
     }
     radiance
 }

@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::BufWriter;
 
-use eyeray::Camera;
+use eyeray::{Camera, Ray};
 use glam::{Vec3, vec2, vec3};
 use indicatif::{ParallelProgressIterator, ProgressBar, ProgressStyle};
 use rayon::prelude::*;
@@ -24,14 +24,20 @@ pub(crate) fn render(
     let rows = pixels.par_chunks_mut(width.into()).zip(0..height);
     rows.progress_with(progress_bar(height)).for_each(|(row, y)| {
         for (pixel, x) in row.iter_mut().zip(0..width) {
-            let mut sum = Vec3::ZERO;
-            for sample in 0..samples {
-                let mut sampler = Sampler::new([x, y], sample);
-                let [right, down, ..] = sampler.draw();
-                let place = vec2(f32::from(x) + right, f32::from(y) + down);
-                let eye_ray = camera.pixel_ray(place, width.into(), height.into());
-                sum += radiance(scene, eye_ray, &mut sampler);
-            }
+            let (mut samplers, eye_rays): (Vec<Sampler>, Vec<Ray>) = (0..samples)
+                .map(|sample| {
+                    let mut sampler = Sampler::new([x, y], sample);
+                    let [right, down, ..] = sampler.draw();
+                    let place = vec2(f32::from(x) + right, f32::from(y) + down);
+                    (sampler, camera.pixel_ray(place, width.into(), height.into()))
+                })
+                .unzip();
+            // The eye rays of a pixel lie together, and are asked together. Later, each path goes its own way.
+            let mut found = vec![None; eye_rays.len()];
+            scene.spheres.nearest_each(&eye_rays, 0.0..f32::INFINITY, &mut found);
+            let paths = samplers.iter_mut().zip(eye_rays).zip(found);
+            let sum: Vec3 =
+                paths.map(|((sampler, ray), found)| radiance(scene, ray, found, sampler)).sum();
             *pixel = develop(sum / f32::from(samples));
         }
     });
