@@ -32,13 +32,14 @@ pub(crate) fn spheres(count: usize) -> Vec<Sphere> {
         .collect()
 }
 
-/// `count` eye rays, row by row through a square image that the cloud about fills.
+/// `count` eye rays, in tiles of 64, through a square image that the cloud about fills.
 pub(crate) fn eye_rays(count: u32) -> Result<Vec<Ray>, CameraError> {
     let eye = vec3(1500.0, 1000.0, 3500.0);
     let camera = Camera::perspective_fov(eye, Vec3::ZERO, Vec3::Y, 0.75, 1.0)?;
-    // Rounded up, so that there are enough pixels.
-    let side = count.isqrt() + 1;
-    Ok(camera.rays(side, side).take(count as usize).collect())
+    // Rounded up, so that there are enough pixels, in tiles that are all whole.
+    let side = (count.isqrt() + 1).next_multiple_of(8);
+    let rays = camera.tiles(side, side, 8).flat_map(|tile| tile.rays());
+    Ok(rays.take(count as usize).collect())
 }
 
 /// `count` rays, of unit direction, that leave the matte surfaces where the eye rays met them.

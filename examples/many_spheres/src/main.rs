@@ -9,6 +9,9 @@
 //! Half of the rays are eye rays, the other half leave the surfaces that those have met. The scan, `SphereBvh` and the exact
 //! routine in obvhs's hierarchy must give the same hits, bit for bit, or the example fails. Embree, which computes in single
 //! precision, is there if Debian's libembree-dev is installed.
+//!
+//! Two more columns are of the eye rays only, by `SphereBvh`: one at a time ([`eyeray::SphereBvh::nearest`]), and 64 at a time,
+//! those of a tile of the picture ([`eyeray::SphereBvh::nearest_each`]). These must give the same hits, too.
 
 mod arguments;
 mod cloud;
@@ -40,10 +43,9 @@ fn main() -> ExitCode {
 fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     let eye_rays =
         cloud::eye_rays(arguments.rays / 2).map_err(|error| format!("no such camera: {error}"))?;
-    print_row(
-        "spheres",
-        ["scan", "SphereBvh", "obvhs", "Embree", "built in", "same hits"].map(String::from),
-    );
+    let titles =
+        ["scan", "SphereBvh", "obvhs", "Embree", "eye rays", "in tiles", "built in", "same hits"];
+    print_row("spheres", titles.map(String::from));
 
     let mut overtakes = None;
     for count in SIZES.into_iter().filter(|&count| count <= arguments.largest) {
@@ -59,8 +61,10 @@ fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
             nanoseconds(row.bvh),
             nanoseconds(row.obvhs),
             row.embree.map_or("skipped".into(), nanoseconds),
+            nanoseconds(row.eye_rays),
+            nanoseconds(row.in_tiles),
             format!("{:.2} ms", row.build.as_secs_f64() * 1e3),
-            format!("of {} rays", row.compared),
+            format!("of {}", row.compared),
         ];
         print_row(&count.to_string(), cells);
     }
@@ -70,8 +74,8 @@ fn run(arguments: &Arguments) -> Result<String, Box<dyn Error>> {
     })
 }
 
-fn print_row(count: &str, cells: [String; 6]) {
-    let cells = cells.map(|cell| format!("{cell:>16}"));
+fn print_row(count: &str, cells: [String; 8]) {
+    let cells = cells.map(|cell| format!("{cell:>12}"));
     // A closed pipe is no error.
     let _ = writeln!(stdout(), "{count:>9}{}", cells.concat());
 }
@@ -83,6 +87,10 @@ struct Row {
     obvhs: f64,
     /// If it is there.
     embree: Option<f64>,
+    /// The eye rays only, by `SphereBvh`, one at a time.
+    eye_rays: f64,
+    /// The same, 64 at a time.
+    in_tiles: f64,
     /// How long `SphereBvh` took to sort the spheres.
     build: Duration,
     /// How many rays were asked of all.
@@ -99,8 +107,16 @@ fn measure(count: u32, eye_rays: &[Ray], ray_count: u32) -> Result<Row, String> 
         spheres.iter().map(|&Sphere { center: c, radius }| [c.x, c.y, c.z, radius]).collect();
     let embree = embree::Device::new().and_then(|device| device.build(&numbers));
 
-    let hits: Vec<Hit> =
-        eye_rays.iter().filter_map(|ray| bvh.nearest(ray, ALL)).map(|(_, hit)| hit).collect();
+    let found: Vec<_> = eye_rays.iter().map(|ray| bvh.nearest(ray, ALL)).collect();
+    let mut in_tiles = vec![None; eye_rays.len()];
+    bvh.nearest_each(eye_rays, ALL, &mut in_tiles);
+    if in_tiles != found {
+        return Err(format!(
+            "of {count} spheres, the eye rays do not have the same hits in tiles as one at a time"
+        ));
+    }
+
+    let hits: Vec<Hit> = found.into_iter().flatten().map(|(_, hit)| hit).collect();
     let mut rays = eye_rays.to_vec();
     rays.extend(cloud::bounce_rays(&hits, ray_count - ray_count / 2));
     // A scan takes as much longer as there are more spheres: of a large cloud, some of the rays have to do.
@@ -128,6 +144,14 @@ fn measure(count: u32, eye_rays: &[Ray], ray_count: u32) -> Result<Row, String> 
                 embree.nearest(ray.origin.to_array(), ray.direction.to_array())
             })
         }),
+        eye_rays: nanoseconds(eye_rays, |ray| bvh.nearest(ray, ALL)),
+        in_tiles: nanoseconds_in_batches(eye_rays, |batch| {
+            let mut found = [None; 64];
+            for tile in batch.chunks(64) {
+                bvh.nearest_each(tile, ALL, &mut found);
+                black_box(&found);
+            }
+        }),
         build,
         compared: sample.len(),
     })
@@ -139,21 +163,28 @@ fn timed<T>(make: impl FnOnce() -> T) -> (T, Duration) {
     (result, start.elapsed())
 }
 
-/// How long a query takes.
+/// How many rays are timed together: a whole number of tiles.
+const BATCH: usize = 512;
+
+/// How long a query takes, of one ray at a time.
+fn nanoseconds<T>(rays: &[Ray], nearest: impl Fn(&Ray) -> T) -> f64 {
+    nanoseconds_in_batches(rays, |batch| {
+        for ray in batch {
+            black_box(nearest(ray));
+        }
+    })
+}
+
+/// How long a query takes a ray.
 ///
 /// All rays are traced several times, in batches, and of each batch the shortest time counts: what else the machine does
 /// in between makes some batches longer, and none shorter. Between two times, all other rays have passed.
-fn nanoseconds<T>(rays: &[Ray], nearest: impl Fn(&Ray) -> T) -> f64 {
-    const BATCH: usize = 500;
+fn nanoseconds_in_batches(rays: &[Ray], ask: impl Fn(&[Ray])) -> f64 {
     const TIMES: usize = 4;
     let mut shortest = vec![Duration::MAX; rays.len().div_ceil(BATCH)];
     for _ in 0..TIMES {
         for (batch, shortest) in rays.chunks(BATCH).zip(&mut shortest) {
-            let ((), time) = timed(|| {
-                for ray in batch {
-                    black_box(nearest(ray));
-                }
-            });
+            let ((), time) = timed(|| ask(batch));
             *shortest = time.min(*shortest);
         }
     }
