@@ -3,6 +3,7 @@
 //! ```text
 //! cargo bench --manifest-path benches/peers/Cargo.toml --bench many_spheres
 //! cargo bench --manifest-path benches/peers/Cargo.toml --bench many_spheres -- --seed 7 chain   # other numbers, one scene
+//! cargo bench --manifest-path benches/peers/Cargo.toml --bench many_spheres -- --pictures       # only the second table
 //! ```
 //!
 //! Half of the rays are eye rays, half bounce off what those meet. A second table has the rays of a picture, and takes many at a time.
@@ -35,19 +36,23 @@ struct Arguments {
     seed: u64,
     rounds: usize,
     rays: usize,
+    /// Only the rays of pictures.
+    pictures: bool,
     /// Only scenes whose name has this in it.
     only: String,
 }
 
 fn arguments() -> Result<Arguments, lexopt::Error> {
     use lexopt::prelude::*;
-    let mut arguments = Arguments { seed: 1, rounds: 9, rays: 40_000, only: String::new() };
+    let mut arguments =
+        Arguments { seed: 1, rounds: 9, rays: 40_000, pictures: false, only: String::new() };
     let mut parser = lexopt::Parser::from_env();
     while let Some(argument) = parser.next()? {
         match argument {
             Long("seed") => arguments.seed = parser.value()?.parse()?,
             Long("rounds") => arguments.rounds = parser.value()?.parse()?,
             Long("rays") => arguments.rays = parser.value()?.parse()?,
+            Long("pictures") => arguments.pictures = true,
             Long("test") => (arguments.rounds, arguments.rays) = (1, 200),
             Long("bench") => {}
             Value(name) => arguments.only = name.string()?,
@@ -85,6 +90,20 @@ fn main() {
     if embree::Device::new().is_none() {
         println!("Embree is skipped: Debian's libembree-dev is not installed");
     }
+    if !arguments.pictures {
+        one_at_a_time(&arguments);
+    }
+    pictures::print_head();
+    for scene in SCENES.iter().filter(|scene| scene.name.contains(&arguments.only)) {
+        let spheres = (scene.spheres)(arguments.seed);
+        let hierarchy = spheres.iter().collect();
+        let embree = embree::Device::new().and_then(|device| device.build(&numbers(&spheres)));
+        pictures::print_row(scene.name, &spheres, &hierarchy, embree.as_ref(), arguments.rounds);
+    }
+}
+
+/// The first table.
+fn one_at_a_time(arguments: &Arguments) {
     println!(
         "nearest and occluded: ns a ray, and SphereBvh's time as a part of the other's; build: ms"
     );
@@ -106,14 +125,7 @@ fn main() {
         "",
     );
     for scene in SCENES.iter().filter(|scene| scene.name.contains(&arguments.only)) {
-        row(scene, &arguments);
-    }
-    pictures::print_head();
-    for scene in SCENES.iter().filter(|scene| scene.name.contains(&arguments.only)) {
-        let spheres = (scene.spheres)(arguments.seed);
-        let hierarchy = spheres.iter().collect();
-        let embree = embree::Device::new().and_then(|device| device.build(&numbers(&spheres)));
-        pictures::print_row(scene.name, &spheres, &hierarchy, embree.as_ref(), arguments.rounds);
+        row(scene, arguments);
     }
 }
 

@@ -26,37 +26,32 @@ struct Nearest<'a, V: Vector, C> {
 }
 
 impl<V: Vector, C: Collection<V>> Nearest<'_, V, C> {
-    /// Asks a ray exactly whether it meets the sphere at that place first.
-    fn ask_exactly(&mut self, ray_place: usize, place: u32) {
+    /// Asks a ray exactly whether it meets the sphere at that place first, or, if that is known, where.
+    fn ask_exactly(&mut self, ray_place: usize, place: u32, is_known: bool) {
         let Self { collection, rays, range, found } = self;
         let (Some(ray), Some(found), Some((index, sphere))) =
             (rays.get(ray_place), found.get_mut(ray_place), collection.member(place))
         else {
             return;
         };
-        if let Some(hit) = sphere.intersect(ray, range.clone()) {
-            let is_first = found.is_none_or(|(other, nearest)| {
-                let spheres = || [Some(sphere), collection.sphere(other)];
-                is_nearer(ray, (index, hit.t), (other, nearest.t), spheres)
-            });
-            if is_first {
-                *found = Some((index, hit));
-            }
+        let hit = sphere.intersect(ray, Range::clone(range));
+        let is_first = |hit: &Hit<V>| {
+            is_known
+                || found.is_none_or(|(other, nearest)| {
+                    let spheres = || [Some(sphere), collection.sphere(other)];
+                    is_nearer(ray, (index, hit.t), (other, nearest.t), spheres)
+                })
+        };
+        if let Some(hit) = hit.filter(is_first) {
+            *found = Some((index, hit));
         }
     }
 
-    /// Asks all rays exactly whose nearest sphere is known.
+    /// Asks all rays exactly whose nearest sphere is known: it is certainly nearer than what was found before.
     fn finish(&mut self, packet: &Packet) {
         for ray_place in Bits(packet.alive) {
             if let Some(place) = packet.nearest(ray_place) {
-                // It is certainly nearer than what was found before.
-                let Self { collection, rays, range, found } = self;
-                let (Some(ray), Some(found), Some((index, sphere))) =
-                    (rays.get(ray_place), found.get_mut(ray_place), collection.member(place))
-                else {
-                    continue;
-                };
-                *found = sphere.intersect(ray, Range::clone(range)).map(|hit| (index, hit));
+                self.ask_exactly(ray_place, place, true);
             }
         }
     }
@@ -75,13 +70,9 @@ impl<V: Vector, C: Collection<V>> Question<V> for Nearest<'_, V, C> {
         let doubtfully = meet(packet, lanes, rays, sphere, place).doubtfully;
         for ray_place in Bits(doubtfully) {
             if let Some(nearest) = packet.nearest(ray_place) {
-                // It was certainly nearer than what was found before.
-                if let Some(found) = self.found.get_mut(ray_place) {
-                    *found = None;
-                }
-                self.ask_exactly(ray_place, nearest);
+                self.ask_exactly(ray_place, nearest, true);
             }
-            self.ask_exactly(ray_place, place);
+            self.ask_exactly(ray_place, place, false);
             if let Some(Some((_, hit))) = self.found.get(ray_place) {
                 packet.set_nearest(ray_place, to_f32(hit.t), to_f32(next_above::<V>(hit.t)));
             }
@@ -168,27 +159,14 @@ fn nearest_each<V: Vector>(
     range: &Range<V::Scalar>,
     found: &mut [Found<V>],
 ) {
-    let mut packet = Packet::EMPTY;
-    for (rays, found) in pairs(rays, found) {
-        let mut asked = 0;
-        if is_single::<V>() {
-            asked = packet.load(lanes, rays, range, collection.around());
-        }
-        if asked != 0 {
-            found.fill(None);
-            let mut question = Nearest { collection, rays, range, found: &mut *found };
-            collection.ask(lanes, &mut packet, &mut question);
-            question.finish(&packet);
-            asked &= !packet.alone;
-            #[cfg(test)]
-            tests::count(asked);
-        }
-        for ((place, ray), found) in rays.iter().enumerate().zip(found) {
-            if asked >> place & 1 == 0 {
-                *found = collection.nearest_alone(lanes, ray, range.clone());
-            }
-        }
-    }
+    let together = |packet: &mut Packet, rays: &[Ray<V>], found: &mut [Found<V>]| {
+        found.fill(None);
+        let mut question = Nearest { collection, rays, range, found };
+        collection.ask(lanes, packet, &mut question);
+        question.finish(packet);
+    };
+    let alone = |ray: &Ray<V>| collection.nearest_alone(lanes, ray, range.clone());
+    each(collection, lanes, (rays, range), found, together, alone);
 }
 
 /// Finds whether each ray hits anything.
@@ -199,45 +177,51 @@ fn occludes_each<V: Vector>(
     range: &Range<V::Scalar>,
     occluded: &mut [bool],
 ) {
+    let together = |packet: &mut Packet, rays: &[Ray<V>], answers: &mut [bool]| {
+        answers.fill(false);
+        collection.ask(lanes, packet, &mut Occluded { rays, range, answers });
+    };
+    let alone = |ray: &Ray<V>| collection.occludes_alone(lanes, ray, range.clone());
+    each(collection, lanes, (rays, range), occluded, together, alone);
+}
+
+/// Answers for each ray: those that a packet takes together, and the others alone.
+fn each<V: Vector, T>(
+    collection: &impl Collection<V>,
+    lanes: Lanes,
+    (rays, range): (&[Ray<V>], &Range<V::Scalar>),
+    answers: &mut [T],
+    together: impl Fn(&mut Packet, &[Ray<V>], &mut [T]),
+    alone: impl Fn(&Ray<V>) -> T,
+) {
     let mut packet = Packet::EMPTY;
-    for (rays, occluded) in pairs(rays, occluded) {
+    let around = collection.around();
+    for (rays, answers) in rays.chunks(RAYS).zip(answers.chunks_mut(RAYS)) {
+        // The last may be fewer of either.
+        let count = rays.len().min(answers.len());
+        let (rays, answers) = (&rays[..count], &mut answers[..count]);
         let mut asked = 0;
         if is_single::<V>() {
-            asked = packet.load(lanes, rays, range, collection.around());
+            asked = packet.load(lanes, rays, range, around);
         }
         if asked != 0 {
-            occluded.fill(false);
-            let mut question = Occluded { rays, range, answers: &mut *occluded };
-            collection.ask(lanes, &mut packet, &mut question);
+            together(&mut packet, rays, answers);
             asked &= !packet.alone;
             #[cfg(test)]
             tests::count(asked);
         }
-        for ((place, ray), occluded) in rays.iter().enumerate().zip(occluded) {
+        for ((place, ray), answer) in rays.iter().enumerate().zip(answers) {
             if asked >> place & 1 == 0 {
-                *occluded = collection.occludes_alone(lanes, ray, range.clone());
+                *answer = alone(ray);
             }
         }
     }
 }
 
-/// The rays of each packet, and what is found for them: as many as there are of both.
-fn pairs<'a, V: Vector, T>(
-    rays: &'a [Ray<V>],
-    found: &'a mut [T],
-) -> impl Iterator<Item = (&'a [Ray<V>], &'a mut [T])> {
-    let count = rays.len().min(found.len());
-    rays[..count].chunks(RAYS).zip(found[..count].chunks_mut(RAYS))
-}
-
 impl<V: Vector> Collection<V> for Spheres<V> {
     fn around(&self) -> Around {
         let Middle { center, extent, near_squared } = self.middle;
-        Around {
-            center: narrow(center),
-            radius_squared: near_squared,
-            neighbors: [extent * extent, 1.0],
-        }
+        Around::new(center, near_squared, extent)
     }
 
     fn ask<Q: Question<V>>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) {

@@ -32,8 +32,12 @@ const FEWEST: usize = 4;
 /// What a test of 16 spheres with one ray takes is to that of 16 rays with one sphere as 1 to this.
 const RAYS_IN_A_TEST: u32 = 2;
 
-/// By how many tests of 16 rays a packet may fall behind before it is given up.
-const PATIENCE: i32 = 32;
+/// By how many tests of 16 rays a packet may fall behind before it is given up: it takes as long as some of its rays, one by one.
+const PATIENCE: i32 = 256;
+
+/// How far apart the origins of neighbors may be, in extents of the collection, and their directions, in their lengths. Rays farther
+/// apart share little more than the first nodes.
+const NEIGHBORS: [f32; 2] = [0.125, 0.1];
 
 /// How many pairs of rays tell whether they are neighbors.
 const PAIRS: usize = 4;
@@ -162,8 +166,9 @@ impl Packet {
         self.farthest = end;
         let extent = lanes.run(Prepare { sixteens, end });
         (self.origins, self.directions) = (extent.origins, extent.slopes(end, SLOPE_ERROR));
-        let Some(cone) = Cone::around(lanes, sixteens, &extent, self.first, end, cone::MARGINS)
-        else {
+        // Not the least positive number: to compute with that takes many times as long.
+        let from = if start > 0.0 { start } else { 0.0 };
+        let Some(cone) = Cone::around(lanes, sixteens, &extent, from, end, cone::MARGINS) else {
             return 0;
         };
         self.cone = cone;
@@ -179,6 +184,28 @@ impl Packet {
     #[inline(always)]
     pub(super) fn sixteens(&self) -> &[Sixteen] {
         &self.sixteens[..self.count]
+    }
+
+    /// The cone of one ray, and the end that it has so far.
+    #[inline(always)]
+    pub(super) fn alone(&self, place: usize) -> (Cone, f32) {
+        let (sixteen, lane) = (&self.sixteens[place / LANES % (RAYS / LANES)], place % LANES);
+        let at = |numbers: &[[f32; LANES]; 3]| {
+            Vec3::from(numbers.each_ref().map(|numbers| numbers[lane]))
+        };
+        let [origin, direction] = [at(&sixteen.origin), at(&sixteen.direction)];
+        let Sixteen { one_over_a, length, end, .. } = sixteen;
+        (
+            Cone::of_one(
+                origin,
+                direction,
+                one_over_a[lane],
+                length[lane],
+                self.cone.first,
+                cone::MARGINS,
+            ),
+            end[lane],
+        )
     }
 
     /// Asks a ray no more.
@@ -341,6 +368,14 @@ pub(super) struct Around {
 }
 
 impl Around {
+    /// Around a center, for spheres up to that extent.
+    pub(super) fn new<V: Vector>(center: V, radius_squared: f32, extent: f32) -> Self {
+        let [apart, wide] = NEIGHBORS;
+        let apart = apart * extent;
+        let neighbors = [apart * apart, wide * wide];
+        Self { center: narrow(center), radius_squared, neighbors }
+    }
+
     /// Whether most of a few pairs of rays are neighbors: those that have nothing in common are told before they cost anything.
     fn are_neighbors<V: Vector>(&self, rays: &[Ray<V>]) -> bool {
         let [apart, wide] = self.neighbors;

@@ -13,14 +13,10 @@ use super::walk::{Key, MOST_WAITING, child, entry, key};
 use super::{LEAF, Tree};
 use crate::spheres::each::Collection;
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
-use crate::spheres::local::narrow;
 use crate::spheres::packet::cone::Cone;
 use crate::spheres::packet::{Around, Mask, Packet, Question};
+use crate::spheres::scan::Bits;
 use crate::{Hit, Ray, Scalar, Sphere, Vector};
-
-/// How far apart the origins of neighbors may be, in extents of the tree, and their directions, in their lengths. Rays farther apart
-/// share little more than its first nodes.
-const NEIGHBORS: [f32; 2] = [0.125, 0.25];
 
 /// Numbers of 16 boxes, where one instruction can write them.
 #[repr(align(64))]
@@ -59,17 +55,36 @@ impl<S: Scalar> Vectorized for InLeaf<'_, S> {
     }
 }
 
+/// Asks which rays may meet each sphere of a leaf, one by one: where they are fewer than what 16 rays would have to be asked of.
+struct InLeafAlone<'a, S> {
+    leaf: &'a Leaf<S>,
+    packet: &'a Packet,
+    rays: Mask,
+}
+
+impl<S: Scalar> Vectorized for InLeafAlone<'_, S> {
+    type Output = [Mask; LANES];
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, instructions: I) -> [Mask; LANES] {
+        let mut near = [0; LANES];
+        for ray in Bits(self.rays) {
+            let (cone, end) = self.packet.alone(ray);
+            for lane in Bits(cone.near(instructions, self.leaf.numbers(), end).into()) {
+                near[lane] |= 1 << ray;
+            }
+        }
+        near
+    }
+}
+
 impl<V: Vector> Collection<V> for Tree<V> {
     fn around(&self) -> Around {
         self.regions.first().map_or_else(
             || self.apart.around(),
             |whole| {
-                let (radius, apart) = (whole.extent * FAR, whole.extent * NEIGHBORS[0]);
-                Around {
-                    center: narrow(whole.center),
-                    radius_squared: radius * radius,
-                    neighbors: [apart * apart, NEIGHBORS[1] * NEIGHBORS[1]],
-                }
+                let radius = whole.extent * FAR;
+                Around::new(whole.center, radius * radius, whole.extent)
             },
         )
     }
@@ -169,19 +184,24 @@ impl<V: Vector> Tree<V> {
         question: &mut Q,
     ) -> bool {
         let Some(leaf) = self.leaves.get(place as usize) else { return true };
-        let mut near = lanes.run(InLeaf { leaf, cone: &packet.cone, end: packet.farthest });
+        let near = lanes.run(InLeaf { leaf, cone: &packet.cone, end: packet.farthest });
         if near == 0 {
             return true;
         }
-        if !packet.pays(near.count_ones() * Packet::tests(rays), rays.count_ones()) {
+        let mut of_spheres = [rays; LANES];
+        let (alone, together) = (rays.count_ones(), near.count_ones() * Packet::tests(rays));
+        if alone < together {
+            of_spheres = lanes.run(InLeafAlone { leaf, packet, rays });
+        }
+        if !packet.pays(alone.min(together), alone) {
             return false;
         }
-        while near != 0 {
-            let lane = near.trailing_zeros();
-            near &= near - 1;
-            let sphere = leaf.sphere(lane as usize % LANES);
-            if leaf.index(lane as usize % LANES) != NONE {
-                question.ask(packet, lanes, rays & packet.alive, &sphere, place * 16 + lane);
+        for lane in Bits(near.into()) {
+            let rays = of_spheres[lane % LANES] & packet.alive;
+            if rays != 0 && leaf.index(lane % LANES) != NONE {
+                let sphere = leaf.sphere(lane % LANES);
+                #[expect(clippy::cast_possible_truncation, reason = "it is below 16")]
+                question.ask(packet, lanes, rays, &sphere, place * 16 + lane as u32);
             }
         }
         packet.update_farthest();

@@ -29,7 +29,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{Extent, LEAST_POSITIVE, Sixteen, square};
+use super::{Extent, Sixteen, square};
 use crate::Scalar;
 use crate::float::sqrt;
 use crate::spheres::filter::Block;
@@ -59,8 +59,8 @@ pub(in crate::spheres) struct Cone {
     factor: f32,
     base: f32,
     widening: f32,
-    /// The first t.
-    first: f32,
+    /// The first t, or less.
+    pub(super) first: f32,
 }
 
 impl Cone {
@@ -71,7 +71,7 @@ impl Cone {
         factor: 0.0,
         base: 0.0,
         widening: 0.0,
-        first: LEAST_POSITIVE,
+        first: 0.0,
     };
 
     /// The cone around rays, if it is not too wide. A distance from the axis is off by 5 u of itself, that at the end by 3 u (ρ + E σ)
@@ -112,6 +112,29 @@ impl Cone {
             widening: (widening.max(widening * (1.0 + of_radius)) + length * of_distance) as f32,
             first,
         })
+    }
+
+    /// That of one ray: ρ, σ and k are 0, and the margins are those of all.
+    #[inline(always)]
+    pub(super) fn of_one(
+        origin: Vec3,
+        direction: Vec3,
+        one_over_a: f32,
+        length: f32,
+        first: f32,
+        margins: [f64; 2],
+    ) -> Self {
+        #[expect(clippy::cast_possible_truncation, reason = "they are powers of two")]
+        let ([of_radius, of_distance], least) = (margins.map(|margin| margin as f32), LEAST as f32);
+        Self {
+            origin,
+            direction,
+            over_a: direction * one_over_a,
+            factor: 1.0 + of_radius,
+            base: least,
+            widening: length * of_distance,
+            first,
+        }
     }
 
     /// The same with coordinates relative to a center. The rounding of a difference is less than what it adds.
