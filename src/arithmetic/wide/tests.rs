@@ -1,6 +1,6 @@
 use super::*;
 use crate::arithmetic::pair::{QUOTIENT_ERROR, ROOT_ERROR, SUM_ERROR};
-use crate::testing::{Dyadic, Random, exactly, nearest, part_of_bound};
+use crate::testing::{Dyadic, Random, exactly, Float, part_of_bound};
 
 fn number(wide: Wide) -> Dyadic {
     exactly(wide.value).scaled(wide.exponent.into())
@@ -104,7 +104,7 @@ fn wide_numbers_round_to_f64_once_where_normal() {
         wide.exponent = random.integer(-1100..=1030);
         let (rounded, exact) = (wide.to_f64(), number(wide));
         if rounded.is_normal() || rounded.is_infinite() {
-            assert_eq!(rounded, nearest(&exact, rounded), "{wide:?}");
+            assert_eq!(rounded, f64::nearest(&exact), "{wide:?}");
         } else {
             // Rounded twice: by half a unit in the last place, and before that by very little.
             let error = (&Dyadic::exactly(rounded) - &exact).abs();

@@ -6,13 +6,9 @@ use crate::root::crossing::{Question, Verdict};
 use crate::root::format::Format;
 use crate::root::tests::{assert_exact, line, parts_of_tolerance, single};
 use crate::root::{in_f64, pairs};
-use crate::testing::{Dyadic, ExactChord, Lie, Random, nearest, part_of_bound, search, setting};
+use crate::testing::{Dyadic, ExactChord, Lie, Random, Float, part_of_bound, search, setting};
 
-#[expect(clippy::duplicate_mod, reason = "other unit tests take it, too")]
-#[path = "../../../tests/support/families.rs"]
-mod families;
-
-use families::{FAMILIES, Rng};
+use crate::testing::families::{FAMILIES, Rng};
 
 /// How far a case has to go for its nearest root.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -98,7 +94,7 @@ fn ray_and_sphere(numbers: [f64; 10]) -> (Ray, Sphere) {
 
 #[expect(clippy::cast_possible_truncation, reason = "a guess")]
 fn rounded(exact: &Dyadic) -> f32 {
-    nearest(exact, exact.approximately() as f32)
+    f32::nearest(exact)
 }
 
 const LIES: [Lie; 14] = [

@@ -7,7 +7,7 @@ use crate::geometric::ClosestApproach;
 use crate::root::chord::Derivation;
 use crate::root::tests::line;
 use crate::root::{halves, in_f32};
-use crate::testing::{Dyadic, ExactChord, Lie, Random, nearest, part_of_bound, search, setting};
+use crate::testing::{Dyadic, ExactChord, Lie, Random, Float, part_of_bound, search, setting};
 
 /// A ray, a sphere and how the plain arithmetic sees them.
 struct Case {
@@ -44,7 +44,7 @@ impl Case {
     fn worst_fine_power(&self, sign: i32) -> f64 {
         let error = &self.exact.larger() * &Dyadic::new(sign, -76);
         let power = &self.exact.power + &error;
-        nearest(&power, power.approximately())
+        f64::nearest(&power)
     }
 
     /// What part of its bound the error of the nearest root ahead takes, after a look at whether that is the right answer.

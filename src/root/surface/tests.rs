@@ -6,7 +6,7 @@ use crate::root::crossing::Side;
 use crate::root::format::Format;
 use crate::root::tests::{assert_exact, line};
 use crate::testing::{
-    Dyadic, ExactChord, Lie, Random, exactly, nearest, part_of_bound, search, setting,
+    Dyadic, ExactChord, Lie, Random, exactly, Float, part_of_bound, search, setting,
 };
 
 fn search_settings(
@@ -176,7 +176,7 @@ fn hits_are_rounded_correctly_or_not_certain() {
         let line = line(numbers);
         // Of the two roots, that on the side of the origin.
         let side = if exact.h.is_negative() { Side::Far } else { Side::Near };
-        let t = nearest(&expected, root.0.hi);
+        let t = f64::nearest(&expected);
         match hit(line, line.o(), root, t) {
             Some(found) => assert_exact(Format::F64, numbers, side, &found),
             None => doubts += 1,
