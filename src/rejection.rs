@@ -119,10 +119,6 @@ impl Bounds for f64 {
     const NAN: Self = f64::NAN;
 }
 
-/// Whether the target has vectors of four numbers, so that four spheres take about as long as one.
-pub(crate) const HAS_VECTORS: bool =
-    cfg!(any(target_feature = "sse2", target_feature = "neon", target_feature = "simd128"));
-
 /// Whether the sphere is one that a ray can hit: not so if it has a NaN, an infinity or a negative radius.
 pub(crate) fn can_be_hit<V: Vector>(sphere: &Sphere<V>) -> bool {
     let radius = sphere.radius;

@@ -1,25 +1,14 @@
 //! Integers of many digits, for sums of products that are exact.
+//!
+//! Each operation is compiled once: a call costs little beside it, and copies cost much of a small machine's memory.
 
 use super::float::Float;
 use super::scaling::integer_and_exponent;
 use super::wide::Wide;
+use crate::target::{Digit, Double};
 
 #[cfg(test)]
 mod tests;
-
-/// A digit.
-#[cfg(target_pointer_width = "64")]
-pub(crate) type Digit = u64;
-/// What holds a product of two digits and two digits more.
-#[cfg(target_pointer_width = "64")]
-type Double = u128;
-
-/// A digit.
-#[cfg(not(target_pointer_width = "64"))]
-pub(crate) type Digit = u32;
-/// What holds a product of two digits and two digits more.
-#[cfg(not(target_pointer_width = "64"))]
-type Double = u64;
 
 /// The binary places of a digit.
 pub(crate) const PLACES: u32 = Digit::BITS;
@@ -39,7 +28,7 @@ pub(crate) struct Shifted {
 
 impl Shifted {
     /// A finite number that is an integer of units of 2^`unit`.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    #[inline(never)]
     pub(crate) fn new(number: f64, unit: i32) -> Self {
         let (magnitude, exponent) = integer_and_exponent(number);
         let places = exponent - unit;
@@ -105,7 +94,7 @@ impl<'a> Integer<'a> {
     }
 
     /// Adds a product.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    #[inline(never)]
     pub(crate) fn add_times(&mut self, a: &Integer, Shifted { integer, places }: Shifted) {
         let magnitude = Double::from(integer.unsigned_abs());
         let shift = places % PLACES;
@@ -116,7 +105,7 @@ impl<'a> Integer<'a> {
     }
 
     /// Adds a number.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    #[inline(never)]
     pub(crate) fn add_number(&mut self, number: Shifted) {
         let one = Integer { digits: &mut [1], len: 1, is_negative: false };
         self.add_times(&one, number);
@@ -170,7 +159,7 @@ impl<'a> Integer<'a> {
     }
 
     /// Adds `a` times `b`, above so many digits that are zeros.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    #[inline(never)]
     fn add_digits(&mut self, a: &Integer, b: &[Digit], zeros: usize, b_is_negative: bool) {
         let is_negative = a.is_negative != b_is_negative;
         let is_difference = is_negative != self.is_negative;

@@ -18,8 +18,7 @@ impl Product {
     pub(crate) const ZERO: Self = Self { high: 0, low: 0 };
 
     /// `a b`.
-    #[cfg_attr(not(target_os = "none"), inline)]
-    #[cfg_attr(target_os = "none", inline(never))]
+    #[inline]
     pub(crate) fn new(a: u128, b: u128) -> Self {
         const LOW: u128 = u64::MAX as u128;
         let (a_high, a_low) = (a >> 64, a & LOW);

@@ -9,7 +9,6 @@ use super::scaling::scale;
 mod tests;
 
 /// The first 106 of the 128 bits of an integer with its highest bit set, as a number in 1..2.
-#[cfg_attr(target_os = "none", inline(never))]
 fn leading_pair(integer: u128) -> Pair {
     const HALF: u128 = (1 << 53) - 1;
     #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]

@@ -10,7 +10,7 @@ use core::cmp::Ordering;
 use crate::arithmetic::pair::{Pair, U};
 use crate::arithmetic::rounding::RoundDown;
 use crate::arithmetic::scaling::integer_and_exponent;
-use crate::float::HAS_F64;
+use crate::target::{HAS_F64, IS_DOWNLOADED};
 
 #[cfg(test)]
 mod tests;
@@ -40,7 +40,7 @@ impl Format {
     /// because code is downloaded there.
     pub(crate) const fn has_few_steps(self) -> bool {
         match self {
-            Self::F32 => !HAS_F64 || cfg!(target_family = "wasm"),
+            Self::F32 => !HAS_F64 || IS_DOWNLOADED,
             Self::F64 => !HAS_F64,
         }
     }

@@ -18,7 +18,8 @@ use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{Pair, U};
 use crate::arithmetic::rounding::rounds_safely;
-use crate::float::{HAS_F64, sqrt};
+use crate::float::sqrt;
+use crate::target::{HAS_F64, once_if};
 use crate::{Hit, Ray, Sphere};
 
 #[cfg(test)]
@@ -83,11 +84,11 @@ impl Setting {
     }
 
     /// The power where the plain one is too small to be certain.
-    #[cfg_attr(not(any(target_os = "none", target_family = "wasm")), inline(always))]
-    #[cfg_attr(any(target_os = "none", target_family = "wasm"), inline(never))]
+    #[inline(always)]
     fn fine_power(&self, chord: &Chord<f64>) -> f64 {
         let (square, other) = (chord.distance_squared, self.radius_squared);
-        halves::power(self.line, self.o, if square > other { square } else { other })
+        let larger = if square > other { square } else { other };
+        once_if(Format::F32.has_few_steps(), || halves::power(self.line, self.o, larger))
     }
 
     /// The nearest root ahead by the plain step; asked a second time, with a finer power.

@@ -83,7 +83,7 @@ struct Scratch<'m> {
 
 impl Surd<'_, '_> {
     /// The number less `integer` 2^`exponent`, within [`ERROR`] of itself.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    #[inline(never)]
     fn less(&self, integer: i64, exponent: i32, scratch: &mut Scratch) -> Float {
         let Scratch { rational, square, norm } = scratch;
         // In the finer of the two units.
@@ -117,7 +117,7 @@ impl Surd<'_, '_> {
     ///
     /// It is divided into a multiple of the last place and what is left, until that tells which multiple is the nearest. Where
     /// what is left is next to a midpoint, how the number compares with that tells.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    #[inline(never)]
     fn round(&self, format: Format, scratch: &mut Scratch) -> f64 {
         /// Of fewer last places the error is far below half of one.
         const FEW: i64 = 1 << 32;
@@ -201,7 +201,7 @@ pub(super) struct Unit {
 
 impl Unit {
     /// The largest power of two that all coordinates are multiples of, any if these are zeros; `None` where one is not finite.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    #[inline(never)]
     pub(super) fn common(vectors: &[DVec3]) -> Option<Self> {
         /// The exponent of the last place of the largest number.
         const LARGEST: i32 = 971;

@@ -39,8 +39,7 @@ const ROOT_ERROR: f64 = U / 131_072.0;
 pub(super) const POWER_ERROR: f64 = 40.0 * V;
 
 /// o·o - r² in pairs, and m.
-#[cfg_attr(not(target_os = "none"), inline(always))]
-#[cfg_attr(target_os = "none", inline(never))]
+#[inline(always)]
 pub(super) fn power_in_pairs(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
     let (o, o_low) = (exact_o.map(|o| o.hi), exact_o.map(|o| o.lo));
     let radius_squared = two_product(radius, radius);

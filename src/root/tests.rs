@@ -322,7 +322,9 @@ fn ties_of_f64_go_to_even() {
             let expected = [0, 1].map(|i: usize| rounded(Format::F64, &exact[i]));
             assert_eq!(both(numbers, Format::F64), Some(expected), "{numbers:?}");
             let expected = expected[0];
-            assert!(beside == 0.0 || expected.to_bits() % 2 == 0 || center > 1.6 || expected == center);
+            assert!(
+                beside == 0.0 || expected.to_bits() % 2 == 0 || center > 1.6 || expected == center
+            );
             assert_eq!(nearest_ahead(numbers, Format::F64).map(|found| found.t), Some(expected));
         }
     }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::testing::{Dyadic, Random, Float};
+use crate::testing::{Dyadic, Float, Random};
 
 #[test]
 fn the_exponent_is_that_of_the_largest_power_of_two_below() {

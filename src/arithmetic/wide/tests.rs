@@ -1,6 +1,6 @@
 use super::*;
 use crate::arithmetic::pair::{QUOTIENT_ERROR, ROOT_ERROR, SUM_ERROR};
-use crate::testing::{Dyadic, Random, exactly, Float, part_of_bound};
+use crate::testing::{Dyadic, Float, Random, exactly, part_of_bound};
 
 fn number(wide: Wide) -> Dyadic {
     exactly(wide.value).scaled(wide.exponent.into())

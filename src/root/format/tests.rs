@@ -1,7 +1,7 @@
 use std::cell::Cell;
 
 use super::*;
-use crate::testing::{Dyadic, Random, exactly, Float};
+use crate::testing::{Dyadic, Float, Random, exactly};
 
 /// An `f32` guess for [`nearest`].
 #[expect(clippy::cast_possible_truncation, reason = "a guess")]

@@ -7,7 +7,7 @@ use crate::root::format::Format;
 use crate::root::plain::{Both, both};
 use crate::root::tests::{ExactLine, difference, length, line, parts_of_tolerance};
 use crate::testing::{
-    Dyadic, ExactChord, Lie, Random, exactly, Float, part_of_bound, search, setting,
+    Dyadic, ExactChord, Float, Lie, Random, exactly, part_of_bound, search, setting,
 };
 
 /// A line and a sphere, and the roots of the first step.

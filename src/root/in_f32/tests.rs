@@ -6,7 +6,7 @@ use crate::root::crossing::{Question, Verdict};
 use crate::root::format::Format;
 use crate::root::tests::{assert_exact, line, parts_of_tolerance, single};
 use crate::root::{in_f64, pairs};
-use crate::testing::{Dyadic, ExactChord, Lie, Random, Float, part_of_bound, search, setting};
+use crate::testing::{Dyadic, ExactChord, Float, Lie, Random, part_of_bound, search, setting};
 
 use crate::testing::families::{FAMILIES, Rng};
 

@@ -1,7 +1,7 @@
 use super::*;
 use crate::arithmetic::scaling::scale;
 use crate::root::tests::{assert_exact, line, single};
-use crate::testing::{Dyadic, ExactChord, Lie, Random, exactly, Float, part_of_bound, setting};
+use crate::testing::{Dyadic, ExactChord, Float, Lie, Random, exactly, part_of_bound, setting};
 
 fn number(wide: Wide) -> Dyadic {
     exactly(wide.scaled(-wide.exponent())).scaled(wide.exponent().into())

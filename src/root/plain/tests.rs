@@ -7,7 +7,7 @@ use crate::geometric::ClosestApproach;
 use crate::root::chord::Derivation;
 use crate::root::tests::line;
 use crate::root::{halves, in_f32};
-use crate::testing::{Dyadic, ExactChord, Lie, Random, Float, part_of_bound, search, setting};
+use crate::testing::{Dyadic, ExactChord, Float, Lie, Random, part_of_bound, search, setting};
 
 /// A ray, a sphere and how the plain arithmetic sees them.
 struct Case {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::root::tests::{assert_exact, exact_surd, exact_root, line};
+use crate::root::tests::{assert_exact, exact_root, exact_surd, line};
 use crate::root::{integers, pairs};
 use crate::testing::{Dyadic, ExactChord, Random};
 

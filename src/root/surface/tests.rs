@@ -6,7 +6,7 @@ use crate::root::crossing::Side;
 use crate::root::format::Format;
 use crate::root::tests::{assert_exact, line};
 use crate::testing::{
-    Dyadic, ExactChord, Lie, Random, exactly, Float, part_of_bound, search, setting,
+    Dyadic, ExactChord, Float, Lie, Random, exactly, part_of_bound, search, setting,
 };
 
 fn search_settings(
