@@ -2,9 +2,9 @@
 //!
 //! Each operation is compiled once: a call costs little beside it, and copies cost much of a small machine's memory.
 
-use super::float::Float;
+use super::scaled_float::ScaledFloat;
+use super::scaled_pair::ScaledPair;
 use super::scaling::integer_and_exponent;
-use super::wide::Wide;
 use crate::target::{Digit, Double};
 
 #[cfg(test)]
@@ -50,8 +50,8 @@ impl Shifted {
         clippy::cast_possible_wrap,
         reason = "some thousand places"
     )]
-    pub(crate) fn to_float(self) -> Float {
-        Float { value: self.integer as f64, exponent: self.places as i32 }
+    pub(crate) fn to_scaled_float(self) -> ScaledFloat {
+        ScaledFloat { value: self.integer as f64, exponent: self.places as i32 }
     }
 }
 
@@ -112,7 +112,7 @@ impl<'a> Integer<'a> {
     }
 
     /// The number, within 3 u of itself: rounded three times.
-    pub(crate) fn to_float(&self) -> Float {
+    pub(crate) fn to_scaled_float(&self) -> ScaledFloat {
         /// So many digits have more bits than an `f64`, even where the first has only one.
         const LEADING: usize = if PLACES == 64 { 2 } else { 3 };
         #[expect(clippy::cast_precision_loss, reason = "it is exact")]
@@ -128,11 +128,11 @@ impl<'a> Integer<'a> {
             reason = "some thousand"
         )]
         let exponent = (below * PLACES as usize) as i32;
-        Float { value: if self.is_negative { -value } else { value }, exponent }
+        ScaledFloat { value: if self.is_negative { -value } else { value }, exponent }
     }
 
     /// The number times 2^`unit`, rounded to 106 bits.
-    pub(crate) fn to_wide(&self, unit: i32) -> Wide {
+    pub(crate) fn to_scaled_pair(&self, unit: i32) -> ScaledPair {
         let zeros = self.digits().last().map_or(0, |digit| digit.leading_zeros());
         // The leading 128 bits, of as many digits and one.
         let (mut leading, mut place) = (0, 128 + zeros);
@@ -150,7 +150,7 @@ impl<'a> Integer<'a> {
             reason = "some thousand"
         )]
         let places = (self.len * PLACES as usize) as i32 - 128 - zeros as i32;
-        let magnitude = Wide::from_integer(leading, unit + places);
+        let magnitude = ScaledPair::from_integer(leading, unit + places);
         if self.is_negative { -magnitude } else { magnitude }
     }
 

@@ -16,11 +16,11 @@ use core::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::bounded::Bounded;
+use super::answer::{Line, Side};
+use super::bounded_chord::Bounded;
 use super::chord::Chord;
-use super::crossing::{Line, Side};
-use super::in_f64::is_safe;
-use super::pairs::offset;
+use super::double::is_safe;
+use super::moved_origin::offset;
 use super::surds::{Unit, compute_chord};
 use crate::arithmetic::integer::{Integer, PLACES, Shifted};
 use crate::arithmetic::number::Triple;

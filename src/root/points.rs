@@ -12,12 +12,12 @@ use core::ops::Range;
 
 use glam::DVec3;
 
-use super::crossing::{Found, Line};
+use super::answer::{Found, Line};
 use super::format::Format;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{Pair, V, two_difference, two_sum};
+use crate::arithmetic::scaled_pair::ScaledPair;
 use crate::arithmetic::scaling::{self, exponent, integer_and_exponent, scale};
-use crate::arithmetic::wide::Wide;
 
 #[cfg(test)]
 mod tests;
@@ -261,7 +261,7 @@ pub(super) fn from_closest_approach(
 /// The hit of a sphere of radius 0, if it is certain how that is rounded: there is no outward normal, but one back along the ray.
 #[cold]
 #[inline(never)]
-pub(super) fn at_center(line: &Line, format: Format, t: f64, a: Wide) -> Option<Found> {
+pub(super) fn at_center(line: &Line, format: Format, t: f64, a: ScaledPair) -> Option<Found> {
     /// a is known within 2⁻⁹⁶ of itself, 1,024 v: its root within half of that and 4 v, and the quotient within 10 v more, 526 v.
     const ERROR: f64 = 4096.0 * V;
     let direction = line.direction.to_array();

@@ -18,13 +18,13 @@
 
 use glam::DVec3;
 
-use super::crossing::{Answer, Crossings, Found, Line, Question, Side, Verdict};
+use super::answer::{Answer, Crossings, Found, Line, Question, Side, Verdict};
 use super::format::Format;
 use super::points;
 use crate::arithmetic::comparison::is_zero;
-use crate::arithmetic::float::Float;
 use crate::arithmetic::integer::{Integer, PLACES, Shifted};
 use crate::arithmetic::pair::U;
+use crate::arithmetic::scaled_float::ScaledFloat;
 use crate::arithmetic::scaling::{integer_and_exponent, scale};
 
 #[cfg(test)]
@@ -84,7 +84,7 @@ struct Scratch<'m> {
 impl Surd<'_, '_> {
     /// The number less `integer` 2^`exponent`, within [`ERROR`] of itself.
     #[inline(never)]
-    fn less(&self, integer: i64, exponent: i32, scratch: &mut Scratch) -> Float {
+    fn less(&self, integer: i64, exponent: i32, scratch: &mut Scratch) -> ScaledFloat {
         let Scratch { rational, square, norm } = scratch;
         // In the finer of the two units.
         let finer = (self.unit - exponent).max(0);
@@ -98,8 +98,8 @@ impl Surd<'_, '_> {
         let places = self.coefficient.places + finer.unsigned_abs();
         let coefficient = Shifted { places, ..self.coefficient };
 
-        let x = rational.to_float();
-        let y = coefficient.to_float() * self.discriminant.to_float().sqrt();
+        let x = rational.to_scaled_float();
+        let y = coefficient.to_scaled_float() * self.discriminant.to_scaled_float().sqrt();
         let mut sum = x + y;
         if sum.is_less_than(x.times(0.25)) {
             square.clear();
@@ -107,10 +107,10 @@ impl Surd<'_, '_> {
             norm.clear();
             norm.add(rational, rational);
             norm.add_times(square, coefficient.negated());
-            sum = norm.to_float() / (x - y);
+            sum = norm.to_scaled_float() / (x - y);
         }
-        let Float { value, exponent } = sum / self.denominator.to_float();
-        Float { value, exponent: exponent + self.unit - finer }
+        let ScaledFloat { value, exponent } = sum / self.denominator.to_scaled_float();
+        ScaledFloat { value, exponent: exponent + self.unit - finer }
     }
 
     /// The number, rounded.

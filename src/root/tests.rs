@@ -1,6 +1,6 @@
 use glam::{DVec3, Vec3};
 
-use super::crossing::Side;
+use super::answer::Side;
 use super::format::PointTolerance;
 use super::*;
 use crate::arithmetic::pair::U;

@@ -1,8 +1,8 @@
 use super::*;
 use crate::algebraic::Quadratic;
 use crate::arithmetic::number::Triple;
+use crate::root::answer::Found;
 use crate::root::chord::Derivation;
-use crate::root::crossing::Found;
 use crate::root::format::Format;
 use crate::root::plain::{Both, both};
 use crate::root::tests::{ExactLine, difference, length, line, parts_of_tolerance};

@@ -1,9 +1,13 @@
+use core::cmp::Ordering;
+
 use super::*;
 use crate::arithmetic::scaling::scale;
+use crate::root::format::Midpoint;
+use crate::root::narrow::compare_root;
 use crate::root::tests::{assert_exact, line, single};
 use crate::testing::{Dyadic, ExactChord, Float, Lie, Random, exactly, part_of_bound, setting};
 
-fn number(wide: Wide) -> Dyadic {
+fn number(wide: ScaledPair) -> Dyadic {
     exactly(wide.scaled(-wide.exponent())).scaled(wide.exponent().into())
 }
 

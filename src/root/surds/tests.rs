@@ -1,6 +1,6 @@
 use super::*;
 use crate::root::tests::{assert_exact, exact_root, exact_surd, line};
-use crate::root::{integers, pairs};
+use crate::root::{integers, moved_origin};
 use crate::testing::{Dyadic, ExactChord, Random};
 
 use crate::testing::families::{FAMILIES, Rng};
@@ -164,7 +164,7 @@ fn every_careful_step_answers_as_this_one() {
         {
             let expected = bits(ask(line, format, &question));
             let in_pairs =
-                pairs::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
+                moved_origin::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
             let in_integers =
                 integers::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
             for (count, verdict) in counts.iter_mut().zip([in_pairs, in_integers]) {

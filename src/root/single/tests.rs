@@ -2,10 +2,10 @@ use glam::DVec3;
 
 use super::*;
 use crate::geometric::ClosestApproach;
-use crate::root::crossing::{Question, Verdict};
+use crate::root::answer::{Question, Verdict};
 use crate::root::format::Format;
 use crate::root::tests::{assert_exact, line, parts_of_tolerance, single};
-use crate::root::{in_f64, pairs};
+use crate::root::{double, moved_origin};
 use crate::testing::{Dyadic, ExactChord, Float, Lie, Random, part_of_bound, search, setting};
 
 use crate::testing::families::{FAMILIES, Rng};
@@ -24,7 +24,7 @@ pub(in crate::root) enum Effort {
 /// Which of the steps that are the same for both precisions decides.
 pub(in crate::root) fn careful_effort(line: &Line, format: Format, range: Range<f64>) -> Effort {
     let question = Question::Nearest(range);
-    let verdict = pairs::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
+    let verdict = moved_origin::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
     if matches!(verdict, Verdict::Doubt) { Effort::Integers } else { Effort::Pairs }
 }
 
@@ -80,7 +80,7 @@ fn how_often_the_careful_paths_run() {
         let mut rng = Rng::new(1);
         print(family.name, "f64", &mut || {
             let (ray, sphere) = (family.f64)(&mut rng);
-            in_f64::tests::effort(&sphere, &ray)
+            double::tests::effort(&sphere, &ray)
         });
     }
 }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::geometric::ClosestApproach;
-use crate::root::in_f32::tests::{Effort, careful_effort};
+use crate::root::single::tests::{Effort, careful_effort};
 use crate::root::tests::{assert_exact, line};
 use crate::testing::{ExactChord, Float, Lie, Random, setting};
 

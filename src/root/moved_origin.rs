@@ -50,20 +50,20 @@
 
 use core::cmp::Ordering;
 
-use super::bounded::Bounded;
+use super::answer::{Crossings, Found, Line, Side, Verdict};
+use super::bounded_chord::Bounded;
 use super::chord::Chord;
-use super::crossing::{Crossings, Found, Line, Side, Verdict};
 use super::format::{Format, Midpoint};
-use super::integers;
+use super::narrow;
+use super::near_surface::{self, power_in_pairs};
 use super::points::{self, Crossing, Near};
-use super::scaled::Scaled;
-use super::surface::{self, power_in_pairs};
+use super::scaled_line::Scaled;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
     LEAST_PAIR, Pair, U, V, compensated_dot, two_difference, two_product, two_sum,
 };
+use crate::arithmetic::scaled_pair::ScaledPair;
 use crate::arithmetic::scaling::scale;
-use crate::arithmetic::wide::Wide;
 use crate::float::sqrt;
 
 #[cfg(test)]
@@ -228,7 +228,7 @@ impl InPairs<'_> {
         let number = Midpoint { exponent, ..number };
         let certain = if self.scaled.is_scaled() { None } else { quadratic_at(self.line, number) };
         match (certain, side) {
-            (None, _) => integers::compare_root(self.line, side, number),
+            (None, _) => narrow::compare_root(self.line, side, number),
             // Nearer to this root than to the other, outside is before the near one and behind the far one.
             (Some(quadratic), Side::Near) => Some(quadratic),
             (Some(quadratic), Side::Far) => Some(quadratic.reverse()),
@@ -256,7 +256,7 @@ fn quadratic_at(line: &Line, number: Midpoint) -> Option<Ordering> {
     });
     let dropped = exact.x.1 + exact.y.1 + exact.z.1;
     let w = Triple { x: exact.x.0, y: exact.y.0, z: exact.z.0 };
-    let (power, error) = surface::closest_power(w, line.radius);
+    let (power, error) = near_surface::closest_power(w, line.radius);
     // 0 only where all is exact: what is dropped counts, and its products may underflow.
     let size = w.x.hi.abs() + w.y.hi.abs() + w.z.hi.abs();
     let of_dropped = 3.0 * (size + dropped) * dropped + f64::MIN_POSITIVE;
@@ -350,11 +350,17 @@ impl Corrected {
     }
 }
 
-/// The hit at a root that is known to a part of itself of 2⁻⁹⁴, if its point is certain; `t` is that root rounded.
+/// The hit at a root that is known to a part of itself of at most 2⁻⁹⁴, if its point is certain; `t` is that root rounded.
 ///
 /// So the point is off by 4,096 v |t d|. The product of the root's low part with d is rounded by v |t d|, its sum with the low
 /// part of w by 2 v |w|, and w by v |w| as said above, where |w| ≤ |t d| + |o|: in all by at most 4,100 v (|t d| + |o|).
-pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Wide) -> Option<Found> {
+pub(super) fn hit_at(
+    line: &Line,
+    format: Format,
+    t: f64,
+    root: ScaledPair,
+    relative_error: f64,
+) -> Option<Found> {
     /// Of the way, |o| and r: 2⁻⁹⁰.
     const ERROR: f64 = 65536.0 * V;
     let scaled = Scaled::new(line)?;
@@ -364,7 +370,7 @@ pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Wide) -> Option<
     let root = root.scaled(-scaled.exponent());
     let w = offset(scaled.o, scaled.d, root.hi);
     let reach = sqrt(o.dot(o)) + scaled.radius + root.hi.abs() * length;
-    let error = integers::ROOT_ERROR * root.hi.abs();
+    let error = relative_error * root.hi.abs();
     let root = Corrected { t: root, error, w, correction: root.lo };
     root.hit(line, format, &scaled, t, ERROR * reach)
 }

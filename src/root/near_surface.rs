@@ -15,8 +15,8 @@
 
 use glam::DVec3;
 
+use super::answer::{Found, Line};
 use super::chord::Chord;
-use super::crossing::{Found, Line};
 use super::format::Format;
 use super::points::{self, Crossing, Near};
 use crate::arithmetic::number::Triple;

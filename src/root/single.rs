@@ -4,15 +4,17 @@ use core::ops::Range;
 
 use glam::{DVec3, Vec3};
 
-use super::bounded::Bounded;
+use super::answer::{Found, Line, Setting, Side, Verdict};
+use super::bounded_chord::Bounded;
 use super::chord::{Chord, Derivation};
-use super::crossing::{Found, Line, Setting, Side, Verdict};
 use super::format::Format;
 use super::halves;
 use super::plain::{self, Both, Nearest};
 use super::points::{self, Crossing, Near};
 use super::precision::Precision;
-use super::{both_carefully, exit_carefully, integers, nearest_carefully, root_carefully, surface};
+use super::{
+    both_carefully, exit_carefully, narrow, near_surface, nearest_carefully, root_carefully,
+};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::number::Triple;
@@ -112,7 +114,7 @@ fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
     let rounded = if Format::F32.has_few_steps() {
         None
     } else {
-        let compare = |midpoint| integers::compare_root(line, side, midpoint);
+        let compare = |midpoint| narrow::compare_root(line, side, midpoint);
         Format::F32.round(t.into(), plain::ROOT_ERROR / CLEAR, compare)
     };
     // Only the root is asked for, so that the point is the plain step's, with many steps and with few.
@@ -134,7 +136,7 @@ fn from_the_surface(line: &Line, chord: Chord<f64>, range: Range<f32>) -> Verdic
     {
         return Verdict::Doubt;
     }
-    let (power, error) = surface::closest_power(line.o(), line.radius);
+    let (power, error) = near_surface::closest_power(line.o(), line.radius);
     if power.hi != 0.0 || error != 0.0 {
         return Verdict::Doubt;
     }

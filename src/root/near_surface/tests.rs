@@ -1,8 +1,8 @@
 use super::*;
 use crate::algebraic::Quadratic;
 use crate::float::sqrt;
+use crate::root::answer::Side;
 use crate::root::chord::Derivation;
-use crate::root::crossing::Side;
 use crate::root::format::Format;
 use crate::root::tests::{assert_exact, line};
 use crate::testing::{
