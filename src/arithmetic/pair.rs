@@ -74,8 +74,8 @@ pub(crate) fn two_difference(a: f64, b: f64) -> Pair {
 
 /// `a + b`, exactly, where |a| ≥ |b|, or a is a multiple of the last place of b (Dekker's fast two-sum).
 ///
-/// For the second, let g be that place and |a| < |b| < 2⁵³ g. Then a + b is a multiple of g below 2⁵⁴ g, which rounding moves by at most
-/// g. So `hi` - a is a multiple of g of at most 2⁵³ g, and exact, and so is what is left of b.
+/// For the second, let g be that place and |a| < |b| < 2⁵³ g. Then a + b is a multiple of g below 2⁵⁴ g, which rounding moves by
+/// at most g. So `hi` - a is a multiple of g of at most 2⁵³ g, and exact, and so is what is left of b.
 #[inline(always)]
 pub(crate) fn fast_two_sum(a: f64, b: f64) -> Pair {
     let hi = a + b;
@@ -176,7 +176,8 @@ impl Add for Pair {
     /// Error at most `SUM_ERROR`.
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        // Where this is smaller than the low parts, one number is within twice the other, and the sum a multiple of its last place.
+        // Where this is smaller than the low parts, one number is within twice the other, and the sum a multiple of its last
+        // place.
         let sum = two_sum(self.hi, other.hi);
         fast_two_sum(sum.hi, sum.lo + (self.lo + other.lo))
     }

@@ -1,8 +1,8 @@
 //! Every step against the last one, over all exponents of each input.
 //!
-//! A product of floats is exact only where it does not underflow, and an analysis of rounding says nothing of that. So origins lie on a
-//! surface, or next to nothing off it, lines touch a sphere or nearly so, roots are midway between two floats or nearly so, and what
-//! "next to nothing" is may be any number.
+//! A product of floats is exact only where it does not underflow, and an analysis of rounding says nothing of that. So origins
+//! lie on a surface, or next to nothing off it, lines touch a sphere or nearly so, roots are midway between two floats or nearly
+//! so, and what "next to nothing" is may be any number.
 //!
 //! ```sh
 //! CASES=10000000 cargo test --release --lib any_exponent -- --nocapture

@@ -4,13 +4,14 @@ use core::ops::Range;
 
 use glam::DVec3;
 
-use super::answer::{Found, Line, Setting, Side};
+use super::answer::{Found, Side};
 use super::chord::{Chord, Derivation};
 use super::format::Format;
 use super::halves::{self, Correction};
+use super::line::{Line, Setting};
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully, exit_carefully, narrow, near_surface, nearest_carefully};
+use super::{both_carefully, exit_carefully, narrow, near_surface, nearest_carefully, power};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::pair::LEAST_PAIR;
 use crate::float::sqrt;
@@ -81,7 +82,7 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
         return None;
     }
     let o = line.o();
-    let power = near_surface::power(o, line.radius);
+    let power = power::accurate_power(o, line.radius);
     // As certain as rounding needs, too.
     if power.1 > f64::EPSILON / 1024.0 * power.0.hi.abs() {
         return None;

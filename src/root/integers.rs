@@ -4,8 +4,9 @@
 //! A root is in doubt only where a number that it is compared with has no room beside the coordinates. Points are computed from
 //! numbers rounded to 96 bits, and may be in doubt.
 
-use super::answer::{Crossings, Found, Line, Side, Verdict};
+use super::answer::{Crossings, Found, Side, Verdict};
 use super::format::Format;
+use super::line::Line;
 use super::moved_origin;
 use super::narrow::Narrow;
 use super::points::{self, normalized};

@@ -1,8 +1,9 @@
 //! From a ray and a sphere to a correctly rounded root: arithmetic that is tried step by step, until one is certain.
 //!
-//! A [`chord`] is what both derivations find: how far away the line passes, and where. The way from there to the root reads
-//! downwards in this table; [`single`] and [`double`] are where it begins, in the user's code, and from `pairs` on it is one
-//! function for both precisions. [`format`](mod@format) rounds, and [`answer`] chooses the root that a ray hits.
+//! A [`chord`] is what both derivations find of a [`line`](mod@line) and a sphere: how far away the line passes, and where. The
+//! way from there to the root reads downwards in this table; [`single`] and [`double`] are where it begins, in the user's code,
+//! and from [`moved_origin`] on it is one function for both precisions. [`power`] has o·o - r² where nearly all of it cancels,
+//! [`format`](mod@format) rounds, [`points`] finds points and normals, and [`answer`] chooses the root that a ray hits.
 //!
 //! | step | arithmetic | error known by | decides | ns, of a family |
 //! |:--|:--|:--|:--|:--|
@@ -11,13 +12,13 @@
 //! | again | `f64` with a finer power, or by the closest approach with a bound of the case ([`bounded_chord`]) | the same | `f32` close to the surface and from afar | 13, "on the surface" in `f32` |
 //! | [`near_surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface | 54, "on the surface" in `f64` |
 //! | [`moved_origin`] | offsets and powers in pairs of `f64`, the rest in `f64` | a bound of the case | the limb, and from afar in `f64` | 86, "at the limb from afar" in `f64` |
-//! | [`integers`] | integers of 64 bits, products of 256 | exact | tangents, ties | 173 and 171, "exact tangent" |
+//! | [`integers`] | integers of 64 bits, products of 256 ([`narrow`]) | exact | tangents, ties | 173 and 171, "exact tangent" |
 //! | [`surds`] | integers of many digits | exact | coordinates that span more places, points next to a midpoint or to zero | 1,452, "tie of a tiny sphere" in `f64` |
 //!
 //! How many in a hundred each decides (`cargo test --release --lib how_often -- --nocapture` has every family; "again" counts
 //! [`near_surface`], and a root compared with the midpoint of two floats counts as integers in `f32`):
 //!
-//! | rays and spheres | | plain, halves | again | pairs | integers |
+//! | rays and spheres | | plain, halves | again | moved origin | integers |
 //! |:--|:--|--:|--:|--:|--:|
 //! | unit sphere at 2 to 10 | `f32` | 99.7 | 0 | 0 | 0.3 |
 //! | | `f64` | 99.8 | 0 | 0.2 | 0 |
@@ -49,12 +50,14 @@ mod double;
 mod format;
 mod halves;
 mod integers;
+mod line;
 mod moved_origin;
 mod narrow;
 mod near_surface;
 pub(crate) mod order;
 mod plain;
 mod points;
+mod power;
 pub(crate) mod precision;
 mod scaled_line;
 mod single;
@@ -63,8 +66,9 @@ mod surds;
 use core::ops::Range;
 
 pub(crate) use answer::Side;
-use answer::{Answer, Found, Line, Question, Verdict};
+use answer::{Answer, Found, Question, Verdict};
 use format::Format;
+use line::Line;
 
 #[cfg(test)]
 mod any_exponent;

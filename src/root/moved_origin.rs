@@ -50,13 +50,14 @@
 
 use core::cmp::Ordering;
 
-use super::answer::{Crossings, Found, Line, Side, Verdict};
+use super::answer::{Crossings, Found, Side, Verdict};
 use super::bounded_chord::Bounded;
 use super::chord::Chord;
 use super::format::{Format, Midpoint};
+use super::line::Line;
 use super::narrow;
-use super::near_surface::{self, power_in_pairs};
 use super::points::{self, Crossing, Near};
+use super::power::{self, power_in_pairs};
 use super::scaled_line::Scaled;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
@@ -215,9 +216,10 @@ impl InPairs<'_> {
 
     /// How the root on that side compares with a number midway between its neighbors, in scaled units.
     ///
-    /// A number within 3 times the error is nearer to this root than to the other: they are 2 s / a apart. By the moved origin
-    /// s² > 192 v a r² + 1280 u v a r √m, so that what the power errs by makes less than s / 8 a, and the correction, at most s / 64 a,
-    /// brings half of that at most; of a plain discriminant, both are less; and 2 v |t| is next to nothing beside s / a > 2⁻⁷² |t|.
+    /// A number within 3 times the error is nearer to this root than to the other: they are 2 s / a apart. By the moved origin s²
+    /// > 192 v a r² + 1280 u v a r √m, so that what the power errs by makes less than s / 8 a, and the correction, at most s / 64
+    /// a, brings half of that at most; of a plain discriminant, both are less; and 2 v |t| is next to nothing beside s / a > 2⁻⁷²
+    /// |t|.
     #[inline(always)]
     fn compare(&self, side: Side, root: &Corrected, number: Midpoint) -> Option<Ordering> {
         let above = root.above(number);
@@ -256,7 +258,7 @@ fn quadratic_at(line: &Line, number: Midpoint) -> Option<Ordering> {
     });
     let dropped = exact.x.1 + exact.y.1 + exact.z.1;
     let w = Triple { x: exact.x.0, y: exact.y.0, z: exact.z.0 };
-    let (power, error) = near_surface::closest_power(w, line.radius);
+    let (power, error) = power::closest_power(w, line.radius);
     // 0 only where all is exact: what is dropped counts, and its products may underflow.
     let size = w.x.hi.abs() + w.y.hi.abs() + w.z.hi.abs();
     let of_dropped = 3.0 * (size + dropped) * dropped + f64::MIN_POSITIVE;

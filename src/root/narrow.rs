@@ -2,8 +2,9 @@
 
 use core::cmp::Ordering;
 
-use super::answer::{Line, Side};
+use super::answer::Side;
 use super::format::Midpoint;
+use super::line::Line;
 use crate::arithmetic::integer::Shifted;
 use crate::arithmetic::pair::U;
 use crate::arithmetic::product::{Product, sign_of_sum};

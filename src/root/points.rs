@@ -12,8 +12,9 @@ use core::ops::Range;
 
 use glam::DVec3;
 
-use super::answer::{Found, Line};
+use super::answer::Found;
 use super::format::Format;
+use super::line::Line;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{Pair, V, two_difference, two_sum};
 use crate::arithmetic::scaled_pair::ScaledPair;

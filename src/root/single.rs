@@ -4,17 +4,16 @@ use core::ops::Range;
 
 use glam::{DVec3, Vec3};
 
-use super::answer::{Found, Line, Setting, Side, Verdict};
+use super::answer::{Found, Side, Verdict};
 use super::bounded_chord::Bounded;
 use super::chord::{Chord, Derivation};
 use super::format::Format;
 use super::halves;
+use super::line::{Line, Setting};
 use super::plain::{self, Both, Nearest};
 use super::points::{self, Crossing, Near};
 use super::precision::Precision;
-use super::{
-    both_carefully, exit_carefully, narrow, near_surface, nearest_carefully, root_carefully,
-};
+use super::{both_carefully, exit_carefully, narrow, nearest_carefully, power, root_carefully};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::number::Triple;
@@ -136,7 +135,7 @@ fn from_the_surface(line: &Line, chord: Chord<f64>, range: Range<f32>) -> Verdic
     {
         return Verdict::Doubt;
     }
-    let (power, error) = near_surface::closest_power(line.o(), line.radius);
+    let (power, error) = power::closest_power(line.o(), line.radius);
     if power.hi != 0.0 || error != 0.0 {
         return Verdict::Doubt;
     }

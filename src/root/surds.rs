@@ -18,8 +18,9 @@
 
 use glam::DVec3;
 
-use super::answer::{Answer, Crossings, Found, Line, Question, Side, Verdict};
+use super::answer::{Answer, Crossings, Found, Question, Side, Verdict};
 use super::format::Format;
+use super::line::Line;
 use super::points;
 use crate::arithmetic::comparison::is_zero;
 use crate::arithmetic::integer::{Integer, PLACES, Shifted};
@@ -39,17 +40,17 @@ const FEW_DIGITS: usize = digits_of([600, 100]);
 
 /// The digits of the largest integer for lines whose lengths and directions have so many binary places, p and q: no sum has more.
 ///
-/// d is below 2ᵠ and o below 2ᵖ⁺¹, in each coordinate. The widest number is that of the normal. Its A, h d - a o, is below 2ᵖ⁺²ᵠ⁺⁵, as
-/// is every sum on the way to it. B √D is less, and where a multiple of a place is subtracted, less than twice as much is left. The
-/// place may be `finer` by so many binary places than the unit of A. The norm has twice as many places. A sum has one digit more
-/// than the product that is added.
+/// d is below 2ᵠ and o below 2ᵖ⁺¹, in each coordinate. The widest number is that of the normal. Its A, h d - a o, is below
+/// 2ᵖ⁺²ᵠ⁺⁵, as is every sum on the way to it. B √D is less, and where a multiple of a place is subtracted, less than twice as
+/// much is left. The place may be `finer` by so many binary places than the unit of A. The norm has twice as many places. A sum
+/// has one digit more than the product that is added.
 const fn digits([lengths, directions]: [u32; 2], finer: u32) -> usize {
     let rational = (lengths + 2 * directions + 6 + finer).div_ceil(PLACES);
     (2 * rational + 1) as usize
 }
 
-/// The same where the unit of A may be any. A number that is not zero is at least 1 / (2 |A| C), where the norm is 1, and so above
-/// 2⁻ᵖ⁻⁴ᵠ⁻⁹; a midpoint is 55 places finer at most.
+/// The same where the unit of A may be any. A number that is not zero is at least 1 / (2 |A| C), where the norm is 1, and so
+/// above 2⁻ᵖ⁻⁴ᵠ⁻⁹; a midpoint is 55 places finer at most.
 const fn digits_of([lengths, directions]: [u32; 2]) -> usize {
     digits([lengths, directions], lengths + 4 * directions + 64)
 }

@@ -375,8 +375,8 @@ fn what_is_no_ray_or_no_sphere_is_not_hit() {
 
 #[test]
 fn what_is_rounded_up_to_the_smallest_normal_number_is_no_double_rounding() {
-    // Midway between the largest subnormal number and the smallest normal one is 1 - 2^-24 of that, a number of a normal's digits: here
-    // it is c - r, in units of the direction, and the origin is ahead by what `f64` does not see.
+    // Midway between the largest subnormal number and the smallest normal one is 1 - 2^-24 of that, a number of a normal's
+    // digits: here it is c - r, in units of the direction, and the origin is ahead by what `f64` does not see.
     let ulp = f32::EPSILON;
     let sphere = Sphere::new(Vec3::X * (2.0 - ulp), 1.0 - ulp / 2.0);
     let (largest_subnormal, smallest_normal) =

@@ -62,16 +62,16 @@ pub trait Float: Scalar {
         if number.is_negative() { -magnitude } else { magnitude }
     }
 
-    /// The value nearest to a number, of two equally near ones the even one. From the largest finite value and half an ulp on it is
-    /// infinite; a zero has the sign of the number.
+    /// The value nearest to a number, of two equally near ones the even one. From the largest finite value and half an ulp on it
+    /// is infinite; a zero has the sign of the number.
     fn nearest(number: &Dyadic) -> Self {
         Self::nearest_by(number, |other| number.cmp(other))
     }
 
     /// The same of a number that is known by how it compares with others, and `near` is close to it.
     fn nearest_by(near: &Dyadic, compare: impl Fn(&Dyadic) -> Ordering) -> Self {
-        // What is near says where to look. Comparisons with the numbers midway to the neighbors decide; a number midway belongs to
-        // the even one.
+        // What is near says where to look. Comparisons with the numbers midway to the neighbors decide; a number midway belongs
+        // to the even one.
         let mut ordinal = Self::ordinal_towards_zero(near);
         let belongs_above = |ordinal: i64| {
             let twice_midway = &Self::number(ordinal) + &Self::number(ordinal + 1);

@@ -131,8 +131,8 @@ impl<V: Coordinates> Truth<V> {
     }
 
     /// The largest error of a coordinate of a point that was computed for a root, as a part of what is promised: half an ulp of
-    /// that coordinate and a hundredth, or an ulp where it is below 2^-900 or, in single precision, subnormal, and the smaller of a part of the distance travelled and a
-    /// part of the radius.
+    /// that coordinate and a hundredth, or an ulp where it is below 2^-900 or, in single precision, subnormal, and the smaller of
+    /// a part of the distance travelled and a part of the radius.
     pub fn point_error(&self, root: usize, point: V) -> f64 {
         let [of_distance, of_radius] = if V::Scalar::DIGITS == 24 { [30, 24] } else { [60, 53] };
         let allowed =

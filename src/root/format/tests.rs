@@ -4,7 +4,6 @@ use super::*;
 use crate::testing::{Dyadic, Float, Random, exactly};
 
 /// An `f32` guess for [`nearest`].
-#[expect(clippy::cast_possible_truncation, reason = "a guess")]
 fn nearest_f32(exact: &Dyadic) -> f64 {
     f32::nearest(exact).into()
 }

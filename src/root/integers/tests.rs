@@ -287,7 +287,6 @@ fn roots_in_integers_are_the_nearest_f32_too() {
         };
         for (side, expected) in [Side::Near, Side::Far].into_iter().zip(&roots) {
             let Some((root, _)) = found.root(side) else { continue };
-            #[expect(clippy::cast_possible_truncation, reason = "a guess")]
             let nearest = f32::nearest(expected);
             assert_eq!(root, f64::from(nearest), "{side:?} {numbers:?}");
             count += 1;

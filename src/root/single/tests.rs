@@ -92,7 +92,6 @@ fn ray_and_sphere(numbers: [f64; 10]) -> (Ray, Sphere) {
     (ray, Sphere::new(line.center.as_vec3(), line.radius as f32))
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "a guess")]
 fn rounded(exact: &Dyadic) -> f32 {
     f32::nearest(exact)
 }
