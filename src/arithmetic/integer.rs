@@ -1,5 +1,7 @@
 //! Integers of many digits, for sums of products that are exact.
 
+use core::cmp::Ordering;
+
 use super::float::Float;
 use super::scaling::integer_and_exponent;
 use super::wide::Wide;
@@ -92,6 +94,16 @@ impl<'a> Integer<'a> {
 
     pub(crate) fn is_negative(&self) -> bool {
         self.is_negative && self.len > 0
+    }
+
+    pub(crate) fn sign(&self) -> Ordering {
+        if self.is_zero() {
+            Ordering::Equal
+        } else if self.is_negative {
+            Ordering::Less
+        } else {
+            Ordering::Greater
+        }
     }
 
     /// Adds a product.

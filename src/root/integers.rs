@@ -43,19 +43,10 @@ impl Narrow {
     fn compare_root(&self, line: &Line, side: Side, number: Midpoint) -> Option<Ordering> {
         let quadratic = self.quadratic_at(number)?;
         if quadratic.is_lt() {
-            // Within the chord.
-            return Some(if side == Side::Near { Ordering::Less } else { Ordering::Greater });
+            return Some(side.compared(quadratic, Ordering::Equal));
         }
         let ahead = plainly_ahead(line, number).or_else(|| self.ahead_of(number))?;
-        Some(match (side, quadratic) {
-            // Outside the chord, the number lies before both roots or behind both.
-            (_, Ordering::Greater) => ahead,
-            // At a root: at the near one where the closest approach is still ahead, at the far one where it is past.
-            (Side::Near, _) if ahead.is_ge() => Ordering::Equal,
-            (Side::Far, _) if ahead.is_le() => Ordering::Equal,
-            (Side::Near, _) => Ordering::Less,
-            (Side::Far, _) => Ordering::Greater,
-        })
+        Some(side.compared(quadratic, ahead))
     }
 }
 
@@ -145,7 +136,7 @@ impl InIntegers<'_> {
         );
         let root_exponent = root.exponent();
         let root = (root.scaled(-root_exponent), root_exponent, ROOT_ERROR);
-        let crossing = points::Crossing::from_root(self.line, root, offset, radius);
+        let crossing = points::Crossing::from_root(self.line, side, root, offset, radius);
         points::surely(*self.line, self.format, t, crossing)
     }
 }
@@ -170,7 +161,7 @@ impl Crossings for InIntegers<'_> {
         if self.line.radius == 0.0 {
             return points::at_center(self.line, self.format, t, self.a);
         }
-        pairs::hit_at(self.line, self.format, t, root)
+        pairs::hit_at(self.line, self.format, side, t, root)
             .or_else(|| self.hit_from_closest_approach(side, t, root))
     }
 }

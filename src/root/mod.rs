@@ -58,6 +58,7 @@ pub(crate) mod precision;
 mod scaled;
 mod surds;
 mod surface;
+mod ties;
 
 use core::ops::Range;
 

@@ -171,6 +171,7 @@ pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
 
 /// A root, and where the line is there.
 pub(super) struct Corrected {
+    side: Side,
     /// In scaled units.
     t: Pair,
     error: f64,
@@ -203,7 +204,7 @@ impl InPairs<'_> {
         let error = residual_error * per_half_chord + correction.abs() * of_correction;
         let t = two_sum(start, way);
         let t = two_sum(t.hi, t.lo + correction);
-        Some(Corrected { t, error, w, correction })
+        Some(Corrected { side, t, error, w, correction })
     }
 
     /// The error of where the line is at a root.
@@ -318,6 +319,7 @@ impl Corrected {
         });
         let size = center.x.abs() + center.y.abs() + center.z.abs() + 2.0 * radius;
         let crossing = Crossing {
+            side: self.side,
             point: Near::within(sum, error + SUM_ERROR * size),
             units: Triple { x: unit, y: unit, z: unit },
             offset: Near::within(offset, error + SUM_ERROR * radius),
@@ -345,7 +347,7 @@ impl Corrected {
         let relative_error = self.error / self.t.hi.abs() + PAIR_ERROR;
         let root = (self.t, scaled.exponent(), relative_error);
         let offset = Near::within(self.offset(scaled), error + SUM_ERROR * scaled.radius);
-        let crossing = Crossing::from_root(line, root, offset, scaled.radius);
+        let crossing = Crossing::from_root(line, self.side, root, offset, scaled.radius);
         points::surely(*line, format, t, crossing)
     }
 }
@@ -354,7 +356,7 @@ impl Corrected {
 ///
 /// So the point is off by 4,096 v |t d|. The product of the root's low part with d is rounded by v |t d|, its sum with the low
 /// part of w by 2 v |w|, and w by v |w| as said above, where |w| ≤ |t d| + |o|: in all by at most 4,100 v (|t d| + |o|).
-pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Wide) -> Option<Found> {
+pub(super) fn hit_at(line: &Line, format: Format, side: Side, t: f64, root: Wide) -> Option<Found> {
     /// Of the way, |o| and r: 2⁻⁹⁰.
     const ERROR: f64 = 65536.0 * V;
     let scaled = Scaled::new(line)?;
@@ -365,6 +367,6 @@ pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Wide) -> Option<
     let w = offset(scaled.o, scaled.d, root.hi);
     let reach = sqrt(o.dot(o)) + scaled.radius + root.hi.abs() * length;
     let error = integers::ROOT_ERROR * root.hi.abs();
-    let root = Corrected { t: root, error, w, correction: root.lo };
+    let root = Corrected { side, t: root, error, w, correction: root.lo };
     root.hit(line, format, &scaled, t, ERROR * reach)
 }
