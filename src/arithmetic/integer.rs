@@ -2,6 +2,8 @@
 //!
 //! Each operation is compiled once: a call costs little beside it, and copies cost much of a small machine's memory.
 
+use core::cmp::Ordering;
+
 use super::scaled_float::ScaledFloat;
 use super::scaled_pair::ScaledPair;
 use super::scaling::integer_and_exponent;
@@ -81,6 +83,16 @@ impl<'a> Integer<'a> {
 
     pub(crate) fn is_negative(&self) -> bool {
         self.is_negative && self.len > 0
+    }
+
+    pub(crate) fn sign(&self) -> Ordering {
+        if self.is_zero() {
+            Ordering::Equal
+        } else if self.is_negative {
+            Ordering::Less
+        } else {
+            Ordering::Greater
+        }
     }
 
     /// Adds a product.

@@ -1,5 +1,6 @@
 //! What is asked about the crossings of a line, the choice of the root that answers it, and the answer.
 
+use core::cmp::Ordering;
 use core::ops::Range;
 
 use glam::DVec3;
@@ -11,6 +12,23 @@ pub(crate) enum Side {
     Near,
     /// Where it leaves.
     Far,
+}
+
+impl Side {
+    /// How the root compares with a number, by the signs of the quadratic there and of what is from there to the closest
+    /// approach, which does not count within the chord.
+    #[inline(always)]
+    pub(crate) fn compared(self, quadratic: Ordering, ahead: Ordering) -> Ordering {
+        match (self, quadratic) {
+            // Outside the chord, the number lies before both roots or behind both.
+            (_, Ordering::Greater) => ahead,
+            // At a root: at the near one where the closest approach is still ahead, at the far one where it is past.
+            (Self::Near, Ordering::Equal) if ahead.is_ge() => Ordering::Equal,
+            (Self::Far, Ordering::Equal) if ahead.is_le() => Ordering::Equal,
+            (Self::Near, _) => Ordering::Less,
+            (Self::Far, _) => Ordering::Greater,
+        }
+    }
 }
 
 /// What a step says.

@@ -59,7 +59,7 @@
 
 use glam::DVec3;
 
-use super::answer::Found;
+use super::answer::{Found, Side};
 use super::chord::Chord;
 use super::format::Format;
 use super::line::Line;
@@ -186,7 +186,7 @@ impl Corrected {
         self.w.high + (self.w.low + self.correction)
     }
 
-    /// The hit, if it is certain how that is rounded: with |d|, √m and half the chord s.
+    /// The hit at a far root, if it is certain how that is rounded: with |d|, √m and half the chord s.
     ///
     /// By the error of the case, which is far less than [`ROOT_ERROR`] where the chord is long.
     #[inline(always)]
@@ -202,7 +202,7 @@ impl Corrected {
         let offset = Triple::from(self.w.high).zip(low, |hi, lo| Pair { hi, lo });
         let [point, offset] =
             [self.point_in_pairs(), offset].map(|value| Near::within(value, error));
-        let crossing = Crossing::new(point, offset, line.radius);
+        let crossing = Crossing::new(Side::Far, point, offset, line.radius);
         points::surely(line, Format::F64, self.t.hi, crossing)
     }
 }

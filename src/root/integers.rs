@@ -97,7 +97,7 @@ impl InIntegers<'_> {
         );
         let root_exponent = root.exponent();
         let root = (root.scaled(-root_exponent), root_exponent, ROOT_ERROR);
-        let crossing = points::Crossing::from_root(self.line, root, offset, radius);
+        let crossing = points::Crossing::from_root(self.line, side, root, offset, radius);
         points::surely(*self.line, self.format, t, crossing)
     }
 }
@@ -122,7 +122,7 @@ impl Crossings for InIntegers<'_> {
         if self.line.radius == 0.0 {
             return points::at_center(self.line, self.format, t, self.a);
         }
-        moved_origin::hit_at(self.line, self.format, t, root, ROOT_ERROR)
+        moved_origin::hit_at(self.line, self.format, side, t, (root, ROOT_ERROR))
             .or_else(|| self.hit_from_closest_approach(side, t, root))
     }
 }

@@ -62,6 +62,7 @@ pub(crate) mod precision;
 mod scaled_line;
 mod single;
 mod surds;
+mod ties;
 
 use core::ops::Range;
 

@@ -172,6 +172,7 @@ pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
 
 /// A root, and where the line is there.
 pub(super) struct Corrected {
+    side: Side,
     /// In scaled units.
     t: Pair,
     error: f64,
@@ -204,7 +205,7 @@ impl InPairs<'_> {
         let error = residual_error * per_half_chord + correction.abs() * of_correction;
         let t = two_sum(start, way);
         let t = two_sum(t.hi, t.lo + correction);
-        Some(Corrected { t, error, w, correction })
+        Some(Corrected { side, t, error, w, correction })
     }
 
     /// The error of where the line is at a root.
@@ -216,10 +217,10 @@ impl InPairs<'_> {
 
     /// How the root on that side compares with a number midway between its neighbors, in scaled units.
     ///
-    /// A number within 3 times the error is nearer to this root than to the other: they are 2 s / a apart. By the moved origin s²
-    /// > 192 v a r² + 1280 u v a r √m, so that what the power errs by makes less than s / 8 a, and the correction, at most s / 64
-    /// a, brings half of that at most; of a plain discriminant, both are less; and 2 v |t| is next to nothing beside s / a > 2⁻⁷²
-    /// |t|.
+    /// A number within 3 times the error is nearer to this root than to the other: they are 2 s / a apart. By the moved origin,
+    /// s² is above 192 v a r² + 1280 u v a r √m, so that what the power errs by makes less than s / 8 a, and the correction, at
+    /// most s / 64 a, brings half of that at most; of a plain discriminant, both are less; and 2 v |t| is next to nothing beside
+    /// s / a, which is above 2⁻⁷² |t|.
     #[inline(always)]
     fn compare(&self, side: Side, root: &Corrected, number: Midpoint) -> Option<Ordering> {
         let above = root.above(number);
@@ -320,6 +321,7 @@ impl Corrected {
         });
         let size = center.x.abs() + center.y.abs() + center.z.abs() + 2.0 * radius;
         let crossing = Crossing {
+            side: self.side,
             point: Near::within(sum, error + SUM_ERROR * size),
             units: Triple { x: unit, y: unit, z: unit },
             offset: Near::within(offset, error + SUM_ERROR * radius),
@@ -347,7 +349,7 @@ impl Corrected {
         let relative_error = self.error / self.t.hi.abs() + PAIR_ERROR;
         let root = (self.t, scaled.exponent(), relative_error);
         let offset = Near::within(self.offset(scaled), error + SUM_ERROR * scaled.radius);
-        let crossing = Crossing::from_root(line, root, offset, scaled.radius);
+        let crossing = Crossing::from_root(line, self.side, root, offset, scaled.radius);
         points::surely(*line, format, t, crossing)
     }
 }
@@ -359,9 +361,9 @@ impl Corrected {
 pub(super) fn hit_at(
     line: &Line,
     format: Format,
+    side: Side,
     t: f64,
-    root: ScaledPair,
-    relative_error: f64,
+    (root, relative_error): (ScaledPair, f64),
 ) -> Option<Found> {
     /// Of the way, |o| and r: 2⁻⁹⁰.
     const ERROR: f64 = 65536.0 * V;
@@ -373,6 +375,6 @@ pub(super) fn hit_at(
     let w = offset(scaled.o, scaled.d, root.hi);
     let reach = sqrt(o.dot(o)) + scaled.radius + root.hi.abs() * length;
     let error = relative_error * root.hi.abs();
-    let root = Corrected { t: root, error, w, correction: root.lo };
+    let root = Corrected { side, t: root, error, w, correction: root.lo };
     root.hit(line, format, &scaled, t, ERROR * reach)
 }

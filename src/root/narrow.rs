@@ -165,19 +165,10 @@ impl Narrow {
     ) -> Option<Ordering> {
         let quadratic = self.quadratic_at(number)?;
         if quadratic.is_lt() {
-            // Within the chord.
-            return Some(if side == Side::Near { Ordering::Less } else { Ordering::Greater });
+            return Some(side.compared(quadratic, Ordering::Equal));
         }
         let ahead = plainly_ahead(line, number).or_else(|| self.ahead_of(number))?;
-        Some(match (side, quadratic) {
-            // Outside the chord, the number lies before both roots or behind both.
-            (_, Ordering::Greater) => ahead,
-            // At a root: at the near one where the closest approach is still ahead, at the far one where it is past.
-            (Side::Near, _) if ahead.is_ge() => Ordering::Equal,
-            (Side::Far, _) if ahead.is_le() => Ordering::Equal,
-            (Side::Near, _) => Ordering::Less,
-            (Side::Far, _) => Ordering::Greater,
-        })
+        Some(side.compared(quadratic, ahead))
     }
 }
 

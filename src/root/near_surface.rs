@@ -15,7 +15,7 @@
 
 use glam::DVec3;
 
-use super::answer::Found;
+use super::answer::{Found, Side};
 use super::chord::Chord;
 use super::format::Format;
 use super::line::Line;
@@ -76,6 +76,7 @@ pub(super) fn small_root(
 pub(super) fn hit(
     line: Line,
     o: Triple<Pair>,
+    side: Side,
     (root, relative_error): (Pair, f64),
     t: f64,
 ) -> Option<Found> {
@@ -93,6 +94,6 @@ pub(super) fn hit(
     let offset = o.zip(step, |o, step| sum(-o, step));
     let point = Near::within(point, of_root + SUM_ERROR * (size(line.origin) + line.radius));
     let offset = Near::within(offset, of_root + SUM_ERROR * (2.0 * line.radius));
-    let crossing = Crossing::new(point, offset, line.radius);
+    let crossing = Crossing::new(side, point, offset, line.radius);
     points::surely(line, Format::F64, t, crossing)
 }

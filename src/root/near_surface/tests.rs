@@ -113,7 +113,7 @@ fn hits_are_rounded_correctly_or_not_certain() {
         // Of the two roots, that on the side of the origin.
         let side = if exact.h.is_negative() { Side::Far } else { Side::Near };
         let t = f64::nearest(&expected);
-        match hit(line, line.o(), root, t) {
+        match hit(line, line.o(), side, root, t) {
             Some(found) => assert_exact(Format::F64, numbers, side, &found),
             None => doubts += 1,
         }
