@@ -39,7 +39,7 @@
 //! assumes what another has found, so each can be tested by itself.
 //!
 //! From [`surface`] on, and where a line starts exactly on the surface, the points and normals are correctly rounded, too
-//! ([`points`]). So all these steps answer alike, bit for bit, and those between the first and the last can be left out where
+//! ([`points`], with the help of [`ties`]). So all these steps answer alike, bit for bit, and those between the first and the last can be left out where
 //! there is no room for their code ([`Format::has_few_steps`]).
 
 mod bounded;
