@@ -11,9 +11,7 @@ use super::halves::{self, Correction};
 use super::line::{Line, Setting};
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{
-    both_carefully, exit_carefully, narrow, near_surface, nearest_carefully, power, root_carefully,
-};
+use super::{both_carefully, exit_carefully, narrow, near_surface, nearest_carefully, power};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::pair::LEAST_PAIR;
 use crate::float::sqrt;
@@ -52,14 +50,6 @@ impl Setting {
     }
 }
 
-/// Whether the near root is below the start of a range, where the plain step is in doubt of it. So how the far one is computed
-/// does not depend on the range.
-#[cold]
-#[inline(never)]
-fn is_entered_before(line: &Line, start: f64) -> bool {
-    start > 0.0 && root_carefully(line, Format::F64, Side::Near).is_some_and(|near| near < start)
-}
-
 /// The nearest hit where the plain step is in doubt: from close to the surface by a finer power.
 #[cold]
 #[inline(never)]
@@ -71,9 +61,6 @@ fn nearest_again(line: &Line, range: Range<f64>) -> Option<Found> {
     }
     nearest_carefully(line, Format::F64, range)
 }
-
-/// A root of the plain step times this is above the exact one, with as much to spare for the roundings.
-const ABOVE: f64 = 1.0 + 2.0 * plain::ROOT_ERROR / halves::CLEAR;
 
 /// 2⁻⁵⁰⁰, the square of which is not safe.
 const LEAST_LENGTH: f64 = f64::from_bits((1023 - 500) << 52);
@@ -155,24 +142,20 @@ impl Precision for DVec3 {
                     let correction = setting.correction(&chord);
                     let (mut t, mut is_far) = (t, half_chord < 0.0);
                     let half_chord = half_chord.abs();
-                    // Where the near root is below the range, the far one may be in it: at once, if that is certain.
-                    if !is_far && t * ABOVE < range.start {
-                        (t, is_far) = (plain::far_root(&chord, half_chord), true);
-                    }
                     // One copy of the code for both roots.
-                    loop {
-                        match correction.correct_surely(t, half_chord, size) {
-                            Some(root) if root.t.hi >= range.start => {
-                                let t_rounded = root.t.hi;
-                                return (t_rounded < range.end).then(|| {
-                                    let normal = root.offset() / line.radius;
-                                    hit(line, t_rounded, root.point(), normal)
-                                });
-                            }
-                            Some(_) if is_far => return None,
-                            None if is_far || !is_entered_before(&{ line }, range.start) => break,
-                            _ => (t, is_far) = (plain::far_root(&chord, half_chord), true),
+                    while let Some(root) = correction.correct_surely(t, half_chord, size) {
+                        let t_rounded = root.t.hi;
+                        if t_rounded >= range.start {
+                            return (t_rounded < range.end).then(|| {
+                                let normal = root.offset() / line.radius;
+                                hit(line, t_rounded, root.point(), normal)
+                            });
                         }
+                        if is_far {
+                            return None;
+                        }
+                        // Where the near root is below the range, the far one may be in it.
+                        (t, is_far) = (plain::far_root(&chord, half_chord), true);
                     }
                 }
                 Nearest::Doubt => {}

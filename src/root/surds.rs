@@ -42,11 +42,11 @@ const FEW_DIGITS: usize = digits_of([600, 100]);
 ///
 /// d is below 2ᵠ and o below 2ᵖ⁺¹, in each coordinate. The widest number is that of the normal. Its A, h d - a o, is below
 /// 2ᵖ⁺²ᵠ⁺⁵, as is every sum on the way to it. B √D is less, and where a multiple of a place is subtracted, less than twice as
-/// much is left. The place may be `finer` by so many binary places than the unit of A. The norm has twice as many places. A sum
-/// has one digit more than the product that is added.
+/// much is left. The place may be `finer` by so many binary places than the unit of A. The norm has twice as many places. The
+/// digits of two factors are together at most one more than those of their product, and a sum has one digit more than these.
 const fn digits([lengths, directions]: [u32; 2], finer: u32) -> usize {
     let rational = (lengths + 2 * directions + 6 + finer).div_ceil(PLACES);
-    (2 * rational + 1) as usize
+    (2 * rational + 2) as usize
 }
 
 /// The same where the unit of A may be any. A number that is not zero is at least 1 / (2 |A| C), where the norm is 1, and so
