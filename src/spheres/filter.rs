@@ -48,7 +48,7 @@ const COORDINATE_MARGIN: f64 = 1.5 * f32::EPSILON as f64;
 pub(super) const LARGEST: f32 = f32::from_bits((127 + 60) << 23); // 2^60
 
 /// The least square of a direction's length that it computes with.
-pub(super) const LEAST_SQUARE: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
+pub(super) const LEAST_SQUARE: f32 = f32::SQUARES[0];
 
 /// What the filter knows of 16 spheres.
 ///

@@ -10,14 +10,9 @@ use super::lanes::Lanes;
 use super::{SphereBvh, Spheres};
 use crate::{Hit, Hittable, Ray, Scalar, Sphere, Vector, nearest};
 
-#[allow(
-    clippy::duplicate_mod,
-    reason = "those of the integration tests, which other unit tests take too"
-)]
-#[path = "../../tests/support/families.rs"]
-pub(super) mod families;
 mod pictures;
 
+pub(super) use crate::testing::families;
 use families::{FAMILIES, Family, Rng};
 
 /// What the tests need of a precision.
