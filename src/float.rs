@@ -1,8 +1,5 @@
 //! The functions of floating point that `core` lacks, from the standard library or from the libm crate.
 
-/// Whether the hardware computes `f64`, as it does wherever there is an operating system, more often than not.
-pub(crate) const HAS_F64: bool = cfg!(not(target_os = "none"));
-
 /// The square root, correctly rounded: the same bits whichever library gives it.
 #[inline(always)]
 pub(crate) fn sqrt(value: f64) -> f64 {

@@ -4,9 +4,9 @@ use core::hint::black_box;
 use core::iter;
 use core::ops::Range;
 
-use crate::rejection::HAS_VECTORS;
 use crate::root::order::{is_nearer, next_above};
 use crate::sealed::Crate;
+use crate::target::HAS_VECTORS;
 use crate::{Hit, Ray, Sphere, Vector};
 
 /// A trait for everything that a ray can hit: a sphere, many spheres, or a shape of your own.

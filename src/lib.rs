@@ -133,6 +133,7 @@ mod sealed;
 mod sphere;
 #[cfg(feature = "alloc")]
 mod spheres;
+mod target;
 #[cfg(test)]
 mod testing;
 mod vector;

@@ -2,8 +2,8 @@
 //! ray misses may pass the test; a sphere that it hits is never rejected. The filter of the collections (`spheres::filter`) is
 //! the same test in `f32`, over many spheres at a time, of numbers that have been rounded before: one derivation is for both.
 //!
-//! A hit with t from `start` to `end` is a point of that segment of the ray. So a sphere is rejected where the segment stays clear
-//! of its ball: where the point of the segment nearest to the center, at t = m, is farther from it than the radius. With
+//! A hit with t from `start` to `end` is a point of that segment of the ray. So a sphere is rejected where the segment stays
+//! clear of its ball: where the point of the segment nearest to the center, at t = m, is farther from it than the radius. With
 //! o = c - p, h = d·o, a = d·d, and s = a m,
 //!
 //! ```text
@@ -40,8 +40,8 @@
 //! 6 u (r² + T) + 3 u r² + 8 u (T + r² / 2) + 8 u T + 8 u T / 2 = 13 u r² + 26 u T
 //! ```
 //!
-//! *Beyond it*, the start is behind the closest approach: T = q (q - 2 e), and as the point at m is in the ball, e ≤ r. If T is not
-//! negative, q = e + √(e² + T), and with e √(e² + T) ≤ e² + T / 2, q e ≤ 2 r² + T / 2. Likewise with |o|² ≤ r² + T,
+//! *Beyond it*, the start is behind the closest approach: T = q (q - 2 e), and as the point at m is in the ball, e ≤ r. If T is
+//! not negative, q = e + √(e² + T), and with e √(e² + T) ≤ e² + T / 2, q e ≤ 2 r² + T / 2. Likewise with |o|² ≤ r² + T,
 //! |o| q ≤ r √(r² + T) + r² + T ≤ 2 r² + 1.5 T. Together the errors are at most
 //!
 //! ```text
@@ -66,21 +66,21 @@
 //! 2 R |o| ≤ R² + o·o ≤ 2 R² + T, at most R² (1 + 6.5 u) + 2.25 u T, without the last term if T is negative. With the above, that
 //! makes 53.5 u R² + 32.75 u T, or 54.5 u R².
 //!
-//! So T is made larger by `MARGIN`, 36 u, and r² by three times that, 108 u: of this, a negative T, which is made still less, takes
-//! 36 u at most. That leaves 17.5 u r² and 3.25 u T. All terms of the second order are together below 10,000 u² (r² + |T|), which is
-//! less than a 1,000th of u (r² + |T|).
+//! So T is made larger by `MARGIN`, 36 u, and r² by three times that, 108 u: of this, a negative T, which is made still less,
+//! takes 36 u at most. That leaves 17.5 u r² and 3.25 u T. All terms of the second order are together below 10,000 u² (r² + |T|),
+//! which is less than a 1,000th of u (r² + |T|).
 //!
 //! The last subtraction is only compared with a constant, which its rounding does not change.
 //!
 //! **Underflow.** For directions of length 2⁻³⁰ to 2⁶⁰ (in `f64`, 2⁻²⁵⁰ to 2⁵⁰⁰), a and 1 / a are normal numbers. A product that
-//! underflows has an additional error of up to 2⁻¹⁵⁰ (2⁻¹⁰⁷⁵). In h, this error is multiplied by 2 |o| / |d|, in a start and a end by
-//! 2 e / |d|, in a start that is subnormal by 2 e |d|, and in s / a by 2 |o| |d|, where e ≤ |o| + r: together less than 2⁻⁸⁸ |o| (2⁻⁵⁷³ |o|). If |o| < 2⁻¹² (2⁻⁴⁰⁰), this and the errors of the squares are
-//! less than `LEAST`, which the result has to exceed. Otherwise they are far below u o·o. For all other directions, 1 / a is set
-//! to NaN, so that nothing is rejected.
+//! underflows has an additional error of up to 2⁻¹⁵⁰ (2⁻¹⁰⁷⁵). In h, this error is multiplied by 2 |o| / |d|, in a start and a
+//! end by 2 e / |d|, in a start that is subnormal by 2 e |d|, and in s / a by 2 |o| |d|, where e ≤ |o| + r: together less than
+//! 2⁻⁸⁸ |o| (2⁻⁵⁷³ |o|). If |o| < 2⁻¹² (2⁻⁴⁰⁰), this and the errors of the squares are less than `LEAST`, which the result has to
+//! exceed. Otherwise they are far below u o·o. For all other directions, 1 / a is set to NaN, so that nothing is rejected.
 //!
 //! **Overflow and NaN.** Overflow in o·o, h or T and an infinite radius make the result infinite or NaN. Only a finite result
-//! rejects. Where `end` is not positive there is no hit, and either answer is right. What is not rejected so is looked at again: a sphere with a NaN, an infinity or a
-//! negative radius, which nothing hits, is rejected at last.
+//! rejects. Where `end` is not positive there is no hit, and either answer is right. What is not rejected so is looked at again:
+//! a sphere with a NaN, an infinity or a negative radius, which nothing hits, is rejected at last.
 
 use core::ops::Range;
 
@@ -118,10 +118,6 @@ impl Bounds for f64 {
         [f64::from_bits((1023 - 500) << 52), f64::from_bits((1023 + 1000) << 52)];
     const NAN: Self = f64::NAN;
 }
-
-/// Whether the target has vectors of four numbers, so that four spheres take about as long as one.
-pub(crate) const HAS_VECTORS: bool =
-    cfg!(any(target_feature = "sse2", target_feature = "neon", target_feature = "simd128"));
 
 /// Whether the sphere is one that a ray can hit: not so if it has a NaN, an infinity or a negative radius.
 pub(crate) fn can_be_hit<V: Vector>(sphere: &Sphere<V>) -> bool {

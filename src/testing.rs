@@ -1,21 +1,19 @@
 //! What the unit tests share: exact numbers, random ones, and a search for the worst case.
 
-use std::fmt::Debug;
 use std::ops::RangeInclusive;
 
 use glam::DVec3;
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
-#[allow(
-    dead_code,
-    unreachable_pub,
-    reason = "the oracle of the integration tests, of which these take what they need"
-)]
-#[path = "../tests/support/dyadic.rs"]
-mod dyadic;
+// The oracle and the families of the integration tests.
+#[path = "../tests/support/mod.rs"]
+pub(crate) mod support;
 
-pub(crate) use dyadic::Dyadic;
+pub(crate) use support::dyadic::Dyadic;
+pub(crate) use support::families;
+pub(crate) use support::float::Float;
+pub(crate) use support::oracle::Root;
 
 use crate::arithmetic::pair::Pair;
 
@@ -37,62 +35,6 @@ pub(crate) fn part_of_bound(computed: &Dyadic, exact: &Dyadic, bound: &Dyadic) -
     }
     assert!(!bound.is_zero(), "an error where there may be none");
     error.divided_by(bound, 64).approximately()
-}
-
-/// A type of floats, with the neighbors of a number.
-pub(crate) trait Neighbors: Copy + PartialEq + Debug {
-    /// The exact value, and twice the largest power of two for infinity.
-    fn number(self) -> Dyadic;
-    /// The number itself and the two on either side.
-    fn neighborhood(self) -> [Self; 5];
-    /// Whether its last bit is 0.
-    fn is_even(self) -> bool;
-}
-
-macro_rules! neighbors {
-    ($float:ident, $beyond:expr) => {
-        impl Neighbors for $float {
-            fn number(self) -> Dyadic {
-                if self.is_finite() {
-                    Dyadic::exactly(self.into())
-                } else {
-                    Dyadic::new(if self < 0.0 { -1 } else { 1 }, $beyond)
-                }
-            }
-
-            fn neighborhood(self) -> [Self; 5] {
-                // The bits of the magnitude count the numbers from zero on, up to infinity.
-                let infinity = i64::try_from($float::INFINITY.to_bits()).unwrap();
-                let magnitude = i64::try_from(self.abs().to_bits()).unwrap();
-                [-2, -1, 0, 1, 2].map(|step| {
-                    let place = if self < 0.0 { step - magnitude } else { step + magnitude };
-                    let magnitude = place.abs().min(infinity).unsigned_abs();
-                    let magnitude = $float::from_bits(magnitude.try_into().unwrap());
-                    if place < 0 { -magnitude } else { magnitude }
-                })
-            }
-
-            fn is_even(self) -> bool {
-                self.to_bits() % 2 == 0
-            }
-        }
-    };
-}
-
-neighbors!(f32, 128);
-neighbors!(f64, 1024);
-
-/// Of the floats around `guess`, the one nearest to `exact`, ties to even.
-pub(crate) fn nearest<F: Neighbors>(exact: &Dyadic, guess: F) -> F {
-    let distance = |candidate: F| (&candidate.number() - exact).abs();
-    let [first, others @ ..] = guess.neighborhood();
-    others.into_iter().fold(first, |best, candidate| {
-        match distance(candidate).cmp(&distance(best)) {
-            std::cmp::Ordering::Less => candidate,
-            std::cmp::Ordering::Equal if candidate.is_even() => candidate,
-            _ => best,
-        }
-    })
 }
 
 /// Random numbers, the same on every machine.

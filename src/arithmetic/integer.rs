@@ -1,25 +1,16 @@
 //! Integers of many digits, for sums of products that are exact.
+//!
+//! Each operation is compiled once: a call costs little beside it, and copies cost much of a small machine's memory.
 
-use super::float::Float;
+use core::cmp::Ordering;
+
+use super::scaled_float::ScaledFloat;
+use super::scaled_pair::ScaledPair;
 use super::scaling::integer_and_exponent;
-use super::wide::Wide;
+use crate::target::{Digit, Double};
 
 #[cfg(test)]
 mod tests;
-
-/// A digit.
-#[cfg(target_pointer_width = "64")]
-pub(crate) type Digit = u64;
-/// What holds a product of two digits and two digits more.
-#[cfg(target_pointer_width = "64")]
-type Double = u128;
-
-/// A digit.
-#[cfg(not(target_pointer_width = "64"))]
-pub(crate) type Digit = u32;
-/// What holds a product of two digits and two digits more.
-#[cfg(not(target_pointer_width = "64"))]
-type Double = u64;
 
 /// The binary places of a digit.
 pub(crate) const PLACES: u32 = Digit::BITS;
@@ -39,7 +30,7 @@ pub(crate) struct Shifted {
 
 impl Shifted {
     /// A finite number that is an integer of units of 2^`unit`.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    #[inline(never)]
     pub(crate) fn new(number: f64, unit: i32) -> Self {
         let (magnitude, exponent) = integer_and_exponent(number);
         let places = exponent - unit;
@@ -61,8 +52,8 @@ impl Shifted {
         clippy::cast_possible_wrap,
         reason = "some thousand places"
     )]
-    pub(crate) fn to_float(self) -> Float {
-        Float { value: self.integer as f64, exponent: self.places as i32 }
+    pub(crate) fn to_scaled_float(self) -> ScaledFloat {
+        ScaledFloat { value: self.integer as f64, exponent: self.places as i32 }
     }
 }
 
@@ -94,6 +85,16 @@ impl<'a> Integer<'a> {
         self.is_negative && self.len > 0
     }
 
+    pub(crate) fn sign(&self) -> Ordering {
+        if self.is_zero() {
+            Ordering::Equal
+        } else if self.is_negative {
+            Ordering::Less
+        } else {
+            Ordering::Greater
+        }
+    }
+
     /// Adds a product.
     pub(crate) fn add(&mut self, a: &Integer, b: &Integer) {
         self.add_digits(a, b.digits(), 0, b.is_negative);
@@ -105,7 +106,7 @@ impl<'a> Integer<'a> {
     }
 
     /// Adds a product.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    #[inline(never)]
     pub(crate) fn add_times(&mut self, a: &Integer, Shifted { integer, places }: Shifted) {
         let magnitude = Double::from(integer.unsigned_abs());
         let shift = places % PLACES;
@@ -116,14 +117,14 @@ impl<'a> Integer<'a> {
     }
 
     /// Adds a number.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    #[inline(never)]
     pub(crate) fn add_number(&mut self, number: Shifted) {
         let one = Integer { digits: &mut [1], len: 1, is_negative: false };
         self.add_times(&one, number);
     }
 
     /// The number, within 3 u of itself: rounded three times.
-    pub(crate) fn to_float(&self) -> Float {
+    pub(crate) fn to_scaled_float(&self) -> ScaledFloat {
         /// So many digits have more bits than an `f64`, even where the first has only one.
         const LEADING: usize = if PLACES == 64 { 2 } else { 3 };
         #[expect(clippy::cast_precision_loss, reason = "it is exact")]
@@ -139,11 +140,11 @@ impl<'a> Integer<'a> {
             reason = "some thousand"
         )]
         let exponent = (below * PLACES as usize) as i32;
-        Float { value: if self.is_negative { -value } else { value }, exponent }
+        ScaledFloat { value: if self.is_negative { -value } else { value }, exponent }
     }
 
     /// The number times 2^`unit`, rounded to 106 bits.
-    pub(crate) fn to_wide(&self, unit: i32) -> Wide {
+    pub(crate) fn to_scaled_pair(&self, unit: i32) -> ScaledPair {
         let zeros = self.digits().last().map_or(0, |digit| digit.leading_zeros());
         // The leading 128 bits, of as many digits and one.
         let (mut leading, mut place) = (0, 128 + zeros);
@@ -161,7 +162,7 @@ impl<'a> Integer<'a> {
             reason = "some thousand"
         )]
         let places = (self.len * PLACES as usize) as i32 - 128 - zeros as i32;
-        let magnitude = Wide::from_integer(leading, unit + places);
+        let magnitude = ScaledPair::from_integer(leading, unit + places);
         if self.is_negative { -magnitude } else { magnitude }
     }
 
@@ -170,7 +171,7 @@ impl<'a> Integer<'a> {
     }
 
     /// Adds `a` times `b`, above so many digits that are zeros.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    #[inline(never)]
     fn add_digits(&mut self, a: &Integer, b: &[Digit], zeros: usize, b_is_negative: bool) {
         let is_negative = a.is_negative != b_is_negative;
         let is_difference = is_negative != self.is_negative;

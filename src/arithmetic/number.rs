@@ -1,12 +1,8 @@
 //! What a derivation may do with a number, so that it is written once and carried out in `f64` or in pairs.
 
-use core::array;
 use core::ops::{Add, Div, Mul, Sub};
 
 use glam::DVec3;
-
-use super::pair::Pair;
-use crate::float::HAS_F64;
 
 /// A number that a derivation can be carried out in.
 pub trait Number:
@@ -27,14 +23,6 @@ impl Number for f64 {
     }
 }
 
-impl Number for Pair {
-    const ONE: Self = Self { hi: 1.0, lo: 0.0 };
-
-    fn to_f64(self) -> f64 {
-        self.hi
-    }
-}
-
 /// A vector of such numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Triple<N> {
@@ -49,8 +37,7 @@ impl<N: Number> Triple<N> {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
-    #[cfg_attr(not(target_os = "none"), inline(always))]
-    #[cfg_attr(target_os = "none", inline(never))]
+    #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
         Self {
             x: self.y * other.z - self.z * other.y,
@@ -61,22 +48,12 @@ impl<N: Number> Triple<N> {
 
     #[inline(always)]
     pub fn map<M>(self, f: impl Fn(N) -> M) -> Triple<M> {
-        if HAS_F64 {
-            return Triple { x: f(self.x), y: f(self.y), z: f(self.z) };
-        }
-        let numbers = [self.x, self.y, self.z];
-        let [x, y, z] = array::from_fn(|axis| f(numbers[axis]));
-        Triple { x, y, z }
+        Triple { x: f(self.x), y: f(self.y), z: f(self.z) }
     }
 
     #[inline(always)]
     pub fn zip<M, O: Copy>(self, other: Triple<O>, f: impl Fn(N, O) -> M) -> Triple<M> {
-        if HAS_F64 {
-            return Triple { x: f(self.x, other.x), y: f(self.y, other.y), z: f(self.z, other.z) };
-        }
-        let (numbers, others) = ([self.x, self.y, self.z], [other.x, other.y, other.z]);
-        let [x, y, z] = array::from_fn(|axis| f(numbers[axis], others[axis]));
-        Triple { x, y, z }
+        Triple { x: f(self.x, other.x), y: f(self.y, other.y), z: f(self.z, other.z) }
     }
 }
 
@@ -97,6 +74,7 @@ impl From<Triple<f64>> for DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arithmetic::pair::Pair;
 
     /// That the operations are those of vectors, and that `one` is 1.
     fn check<N: Number>(number: impl Fn(f64) -> N) {

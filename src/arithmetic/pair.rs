@@ -1,15 +1,12 @@
 //! Pairs: a number as the unevaluated sum of two `f64`, twice the precision.
 //!
-//! On a machine without an operating system, each of the larger operations is compiled once: there `f64` is computed in software
-//! more often than not, a call costs little beside it, and copies cost a sixth of all the code (`tests/targets/run`).
-//!
 //! Dekker, *A Floating-Point Technique for Extending the Available Precision* (1971); for the error bounds, Joldes, Muller
 //! and Popescu, *Tight and Rigorous Error Bounds for Basic Building Blocks of Double-Word Arithmetic* (2017).
 //! Throughout, u = 2⁻⁵³ is the rounding error of an `f64` operation.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::number::Triple;
+use super::number::{Number, Triple};
 use crate::float::sqrt;
 
 #[cfg(test)]
@@ -61,8 +58,7 @@ pub(crate) struct Pair {
 }
 
 /// `a + b`, exactly (Knuth's two-sum).
-#[cfg_attr(not(target_os = "none"), inline(always))]
-#[cfg_attr(target_os = "none", inline(never))]
+#[inline(always)]
 pub(crate) fn two_sum(a: f64, b: f64) -> Pair {
     let hi = a + b;
     let b_part = hi - a;
@@ -78,10 +74,9 @@ pub(crate) fn two_difference(a: f64, b: f64) -> Pair {
 
 /// `a + b`, exactly, where |a| ≥ |b|, or a is a multiple of the last place of b (Dekker's fast two-sum).
 ///
-/// For the second, let g be that place and |a| < |b| < 2⁵³ g. Then a + b is a multiple of g below 2⁵⁴ g, which rounding moves by at most
-/// g. So `hi` - a is a multiple of g of at most 2⁵³ g, and exact, and so is what is left of b.
-#[cfg_attr(not(target_os = "none"), inline(always))]
-#[cfg_attr(target_os = "none", inline(never))]
+/// For the second, let g be that place and |a| < |b| < 2⁵³ g. Then a + b is a multiple of g below 2⁵⁴ g, which rounding moves by
+/// at most g. So `hi` - a is a multiple of g of at most 2⁵³ g, and exact, and so is what is left of b.
+#[inline(always)]
 pub(crate) fn fast_two_sum(a: f64, b: f64) -> Pair {
     let hi = a + b;
     Pair { hi, lo: b - (hi - a) }
@@ -91,8 +86,7 @@ pub(crate) fn fast_two_sum(a: f64, b: f64) -> Pair {
 ///
 /// Where the machine has a fused multiply-add, it gives the error at once; the bits are the same either way, unless it
 /// underflows.
-#[cfg_attr(not(target_os = "none"), inline(always))]
-#[cfg_attr(target_os = "none", inline(never))]
+#[inline(always)]
 pub(crate) fn two_product(a: f64, b: f64) -> Pair {
     let hi = a * b;
     #[cfg(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")))]
@@ -121,8 +115,7 @@ fn split(a: f64) -> (f64, f64) {
 /// `COMPENSATED_DOT_ERROR`.
 ///
 /// Ogita, Rump and Oishi, *Accurate Sum and Dot Product* (2005).
-#[cfg_attr(not(target_os = "none"), inline(always))]
-#[cfg_attr(target_os = "none", inline(never))]
+#[inline(always)]
 pub(crate) fn compensated_dot(a: Triple<f64>, b: Triple<f64>) -> Pair {
     let Triple { x, y, z } = a.zip(b, two_product);
     let xy = two_sum(x.hi, y.hi);
@@ -135,8 +128,7 @@ impl Pair {
     ///
     /// Where the low part may have underflowed, it is left out: what is left of it depends on whether the machine has a fused
     /// multiply-add.
-    #[cfg_attr(not(target_os = "none"), inline(always))]
-    #[cfg_attr(target_os = "none", inline(never))]
+    #[inline(always)]
     pub(crate) fn times(self, factor: f64) -> Self {
         let product = two_product(self.hi, factor);
         let low = if product.hi.abs() < LEAST_PAIR { 0.0 } else { product.lo };
@@ -151,6 +143,14 @@ impl Pair {
         let square = two_product(root, root);
         let remainder = (self.hi - square.hi) - square.lo + self.lo;
         fast_two_sum(root, remainder / (2.0 * root))
+    }
+}
+
+impl Number for Pair {
+    const ONE: Self = Self { hi: 1.0, lo: 0.0 };
+
+    fn to_f64(self) -> f64 {
+        self.hi
     }
 }
 
@@ -174,10 +174,10 @@ impl Add for Pair {
     type Output = Self;
 
     /// Error at most `SUM_ERROR`.
-    #[cfg_attr(not(target_os = "none"), inline(always))]
-    #[cfg_attr(target_os = "none", inline(never))]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
-        // Where this is smaller than the low parts, one number is within twice the other, and the sum a multiple of its last place.
+        // Where this is smaller than the low parts, one number is within twice the other, and the sum a multiple of its last
+        // place.
         let sum = two_sum(self.hi, other.hi);
         fast_two_sum(sum.hi, sum.lo + (self.lo + other.lo))
     }
@@ -197,8 +197,7 @@ impl Mul for Pair {
     type Output = Self;
 
     /// Relative error at most `PRODUCT_ERROR`.
-    #[cfg_attr(not(target_os = "none"), inline(always))]
-    #[cfg_attr(target_os = "none", inline(never))]
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let product = two_product(self.hi, other.hi);
         fast_two_sum(product.hi, product.lo + (self.hi * other.lo + self.lo * other.hi))
@@ -209,8 +208,7 @@ impl Div for Pair {
     type Output = Self;
 
     /// Relative error at most `QUOTIENT_ERROR`.
-    #[cfg_attr(not(target_os = "none"), inline(always))]
-    #[cfg_attr(target_os = "none", inline(never))]
+    #[inline(always)]
     fn div(self, other: Self) -> Self {
         let quotient = self.hi / other.hi;
         let product = two_product(quotient, other.hi);

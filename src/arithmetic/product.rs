@@ -2,7 +2,7 @@
 
 use core::cmp::Ordering;
 
-use super::wide::Wide;
+use super::scaled_pair::ScaledPair;
 
 #[cfg(test)]
 mod tests;
@@ -18,8 +18,7 @@ impl Product {
     pub(crate) const ZERO: Self = Self { high: 0, low: 0 };
 
     /// `a b`.
-    #[cfg_attr(not(target_os = "none"), inline)]
-    #[cfg_attr(target_os = "none", inline(never))]
+    #[inline]
     pub(crate) fn new(a: u128, b: u128) -> Self {
         const LOW: u128 = u64::MAX as u128;
         let (a_high, a_low) = (a >> 64, a & LOW);
@@ -55,15 +54,15 @@ impl Product {
     }
 
     /// The integer times 2^`unit`, rounded to 106 bits.
-    pub(crate) fn to_wide(self, unit: i32) -> Wide {
+    pub(crate) fn to_scaled_pair(self, unit: i32) -> ScaledPair {
         let zeros = self.high.leading_zeros();
         if zeros == 128 {
-            return Wide::from_integer(self.low, unit);
+            return ScaledPair::from_integer(self.low, unit);
         }
         // The first 128 bits.
         let leading = self.high << zeros | self.low.checked_shr(128 - zeros).unwrap_or(0);
         #[expect(clippy::cast_possible_wrap, reason = "at most 127")]
-        Wide::from_integer(leading, unit + 128 - zeros as i32)
+        ScaledPair::from_integer(leading, unit + 128 - zeros as i32)
     }
 }
 

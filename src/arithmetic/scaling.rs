@@ -28,8 +28,7 @@ fn power_of_two(e: i32) -> f64 {
 }
 
 /// `x` 2ᵉ, rounded once: infinite beyond the largest finite number, subnormal or zero below the smallest normal one.
-#[cfg_attr(not(target_os = "none"), inline)]
-#[cfg_attr(target_os = "none", inline(never))]
+#[inline]
 pub(crate) fn scale(x: f64, e: i32) -> f64 {
     if (-1022..=1023).contains(&e) { x * power_of_two(e) } else { scale_far(x, e) }
 }

@@ -15,7 +15,7 @@ use glam::DVec3;
 use crate::arithmetic::integer::{Integer, PLACES, Shifted};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::Pair;
-use crate::arithmetic::wide::Wide;
+use crate::arithmetic::scaled_pair::ScaledPair;
 
 /// The basis u, v, w of a view in the direction from `from` to `to`, all three arguments finite.
 ///
@@ -59,7 +59,7 @@ pub(super) fn negated_dot(a: DVec3, b: DVec3) -> f64 {
 }
 
 /// The sum of at most six products of two or three factors, rounded to 106 bits.
-fn sum<const N: usize, const FACTORS: usize>(products: [[f64; FACTORS]; N]) -> Wide {
+fn sum<const N: usize, const FACTORS: usize>(products: [[f64; FACTORS]; N]) -> ScaledPair {
     /// All numbers are multiples of this, 2⁻¹⁰⁷⁴, and have so many places.
     const UNIT: i32 = -1074;
     const NUMBER: u32 = 2098;
@@ -81,13 +81,16 @@ fn sum<const N: usize, const FACTORS: usize>(products: [[f64; FACTORS]; N]) -> W
         }
         sum.add_times(&product, Shifted::new(*last, UNIT));
     }
-    sum.to_wide(unit)
+    sum.to_scaled_pair(unit)
 }
 
 /// The unit vector along `vector`, unless that is zero.
-fn unit(vector: [Wide; 3]) -> Option<Triple<Pair>> {
-    let exponent =
-        vector.into_iter().filter(|coordinate| !coordinate.is_zero()).map(Wide::exponent).max()?;
+fn unit(vector: [ScaledPair; 3]) -> Option<Triple<Pair>> {
+    let exponent = vector
+        .into_iter()
+        .filter(|coordinate| !coordinate.is_zero())
+        .map(ScaledPair::exponent)
+        .max()?;
     // With the largest coordinate between 1 and 2, the length neither overflows nor underflows.
     let [x, y, z] = vector.map(|coordinate| coordinate.scaled(-exponent));
     let vector = Triple { x, y, z };

@@ -18,7 +18,7 @@ use core::ops::{Div, Mul, Sub};
 use glam::{DVec2, DVec3};
 
 use super::{Camera, Frame, Projection, ViewRect};
-use crate::arithmetic::float::Float;
+use crate::arithmetic::scaled_float::ScaledFloat;
 use crate::arithmetic::scaling::{exponent, scale};
 use crate::{Scalar, Vector};
 
@@ -95,13 +95,14 @@ impl<V: Vector> Camera<V> {
     }
 
     #[cold]
-    fn in_view_plane_of_any_exponent(&self, seen: &Seen) -> [Float; 2] {
+    fn in_view_plane_of_any_exponent(&self, seen: &Seen) -> [ScaledFloat; 2] {
         let unit = match self.projection {
             Projection::Orthographic => seen.unit,
             // In a quotient, the unit is no matter.
             Projection::Perspective { .. } => 0,
         };
-        let in_units = |along: Float| Float { exponent: along.exponent + unit, ..along };
+        let in_units =
+            |along: ScaledFloat| ScaledFloat { exponent: along.exponent + unit, ..along };
         self.in_view_plane(seen, float).map(in_units)
     }
 
@@ -176,14 +177,14 @@ fn largest(vector: DVec3) -> f64 {
 trait Number: Copy + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {}
 
 impl Number for f64 {}
-impl Number for Float {}
+impl Number for ScaledFloat {}
 
 /// A finite number, with a value near 1, from which a few operations do not leave the range.
-fn float(value: f64) -> Float {
+fn float(value: f64) -> ScaledFloat {
     let exponent = exponent(value);
-    Float { value: scale(value, -exponent), exponent }
+    ScaledFloat { value: scale(value, -exponent), exponent }
 }
 
-fn rounded(pair: [Float; 2]) -> DVec2 {
-    pair.map(|Float { value, exponent }| scale(value, exponent)).into()
+fn rounded(pair: [ScaledFloat; 2]) -> DVec2 {
+    pair.map(|ScaledFloat { value, exponent }| scale(value, exponent)).into()
 }

@@ -8,8 +8,8 @@ use crate::arithmetic::scaling::{self, integer_and_exponent, scale};
 #[cfg(test)]
 mod tests;
 
-/// Of a dot product in `f64`, in the sum of its products' absolute values: the products and the two sums are rounded, 3 u. The fourth
-/// is for the rounding of that sum, and for all of the second order.
+/// Of a dot product in `f64`, in the sum of its products' absolute values: the products and the two sums are rounded, 3 u. The
+/// fourth is for the rounding of that sum, and for all of the second order.
 const ERROR: f64 = 4.0 * U;
 
 /// More than what underflows in three products.
@@ -27,13 +27,13 @@ pub(super) fn of_dot(a: DVec3, b: DVec3) -> f64 {
     if dot.abs() > ERROR * size + LEAST { dot } else { exactly((a.x, b.x), (a.y, b.y), (a.z, b.z)) }
 }
 
-/// By how many places a product is taken to be below the largest one at most: a smaller product is made larger. The sign stays the
-/// same. Where the other two products cancel entirely, that product's sign is the sum's, however small it is. Otherwise the other
-/// two leave at least 2⁻¹⁰⁷ of the largest, beside which it is next to nothing.
+/// By how many places a product is taken to be below the largest one at most: a smaller product is made larger. The sign stays
+/// the same. Where the other two products cancel entirely, that product's sign is the sum's, however small it is. Otherwise the
+/// other two leave at least 2⁻¹⁰⁷ of the largest, beside which it is next to nothing.
 const FARTHEST: i32 = 400;
 
-/// The same where the sum cancels, or where a product is beyond the range or next to its end: of the factors of each product, which
-/// come in registers, so that the vectors need not be in memory.
+/// The same where the sum cancels, or where a product is beyond the range or next to its end: of the factors of each product,
+/// which come in registers, so that the vectors need not be in memory.
 #[cold]
 #[inline(never)]
 fn exactly(x: (f64, f64), y: (f64, f64), z: (f64, f64)) -> f64 {

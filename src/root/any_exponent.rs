@@ -1,8 +1,8 @@
 //! Every step against the last one, over all exponents of each input.
 //!
-//! A product of floats is exact only where it does not underflow, and an analysis of rounding says nothing of that. So origins lie on a
-//! surface, or next to nothing off it, lines touch a sphere or nearly so, roots are midway between two floats or nearly so, and what
-//! "next to nothing" is may be any number.
+//! A product of floats is exact only where it does not underflow, and an analysis of rounding says nothing of that. So origins
+//! lie on a surface, or next to nothing off it, lines touch a sphere or nearly so, roots are midway between two floats or nearly
+//! so, and what "next to nothing" is may be any number.
 //!
 //! ```sh
 //! CASES=10000000 cargo test --release --lib any_exponent -- --nocapture
@@ -162,7 +162,7 @@ fn listed(answer: Option<Answer>) -> Option<[f64; 7]> {
 /// What is wrong with the answers to a question of the steps before the last.
 fn wrong_step(line: &Line, format: Format, question: &Question) -> Option<&'static str> {
     let expected = listed(last_step(line, format, question));
-    let in_pairs = pairs::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
+    let in_pairs = moved_origin::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
     let in_integers = integers::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
     let is_wrong = |verdict| match verdict {
         Verdict::Miss => expected.is_some(),

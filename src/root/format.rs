@@ -10,7 +10,7 @@ use core::cmp::Ordering;
 use crate::arithmetic::pair::{Pair, U};
 use crate::arithmetic::rounding::RoundDown;
 use crate::arithmetic::scaling::integer_and_exponent;
-use crate::float::HAS_F64;
+use crate::target::{HAS_F64, IS_DOWNLOADED};
 
 #[cfg(test)]
 mod tests;
@@ -40,7 +40,7 @@ impl Format {
     /// because code is downloaded there.
     pub(crate) const fn has_few_steps(self) -> bool {
         match self {
-            Self::F32 => !HAS_F64 || cfg!(target_family = "wasm"),
+            Self::F32 => !HAS_F64 || IS_DOWNLOADED,
             Self::F64 => !HAS_F64,
         }
     }
@@ -81,7 +81,17 @@ impl Format {
         if low.to_bits() == high.to_bits() {
             return Some(low);
         }
-        let ends = Ends { low, high };
+        self.nearer([low, high], compare)
+    }
+
+    /// Which of two neighbors an exact value between them is rounded to. `None` where they are not neighbors, and where `compare`
+    /// does not know how the value compares with the number midway.
+    #[inline]
+    pub(crate) fn nearer(
+        self,
+        [low, high]: [f64; 2],
+        compare: impl FnOnce(Midpoint) -> Option<Ordering>,
+    ) -> Option<f64> {
         let low_is_even = match self {
             Self::F32 => {
                 #[expect(clippy::cast_possible_truncation, reason = "they are rounded already")]
@@ -94,7 +104,11 @@ impl Format {
                 are_neighbors.then_some(low.to_bits() % 2 == 0)
             }
         }?;
-        ends.choose(self, low_is_even, compare)
+        Some(match compare(self.midpoint([low, high]))? {
+            Ordering::Less => low,
+            Ordering::Equal if low_is_even => low,
+            _ => high,
+        })
     }
 
     /// Rounds to the nearest number.
@@ -148,37 +162,14 @@ impl Format {
             Self::F64 => 53,
         }
     }
-}
 
-/// Two neighbors of a format.
-struct Ends {
-    low: f64,
-    high: f64,
-}
-
-impl Ends {
-    /// The nearer one to the value that is compared; of two equally near ones, the even one.
-    fn choose(
-        &self,
-        format: Format,
-        low_is_even: bool,
-        compare: impl FnOnce(Midpoint) -> Option<Ordering>,
-    ) -> Option<f64> {
-        Some(match compare(self.midpoint(format))? {
-            Ordering::Less => self.low,
-            Ordering::Equal if low_is_even => self.low,
-            _ => self.high,
-        })
-    }
-
-    /// The number midway. Infinity stands for the power of two that would come next.
-    fn midpoint(&self, format: Format) -> Midpoint {
-        let negative = self.high <= 0.0;
-        // The one nearer to zero, as an integer times an ulp of the format.
-        let (mantissa, exponent) =
-            integer_and_exponent(if negative { self.high } else { self.low });
-        let spare = 53 - format.digits();
-        let ulp = (exponent + spare).max(format.least_exponent());
+    /// The number midway between two neighbors. Infinity stands for the power of two that would come next.
+    fn midpoint(self, [low, high]: [f64; 2]) -> Midpoint {
+        let negative = high <= 0.0;
+        // The one nearer to zero, as an integer times an ulp of the self.
+        let (mantissa, exponent) = integer_and_exponent(if negative { high } else { low });
+        let spare = 53 - self.digits();
+        let ulp = (exponent + spare).max(self.least_exponent());
         let magnitude = mantissa.checked_shr((ulp - exponent).unsigned_abs()).unwrap_or(0);
         #[expect(clippy::cast_possible_wrap, reason = "54 bits")]
         let integer = (2 * magnitude + 1) as i64;

@@ -41,9 +41,9 @@
 //! 2, is below 2⁻⁶³·³ of t.
 //!
 //! **The far root** of a chord whose near root t₁ is accepted, (h + s) / a, is corrected by the same steps. As t₁² is at most the
-//! product of both roots, power / a, t₁ |d| ≤ √m; so s t₁ > [`CLEAR`] m gives s > 2⁻¹⁶ √(a m), which is more than is assumed above,
-//! and as s ≤ r |d|, √m < 2¹⁶ r. The far root itself has t |d| ≤ (|h| + s) / |d| ≤ 2 √m, and the bound of the first step. Whether
-//! (s t)² > 2⁻²⁰ r² m is tested of each root. So all that is said of f, w and τ holds of the far root, too.
+//! product of both roots, power / a, t₁ |d| ≤ √m; so s t₁ > [`CLEAR`] m gives s > 2⁻¹⁶ √(a m), which is more than is assumed
+//! above, and as s ≤ r |d|, √m < 2¹⁶ r. The far root itself has t |d| ≤ (|h| + s) / |d| ≤ 2 √m, and the bound of the first step.
+//! Whether (s t)² > 2⁻²⁰ r² m is tested of each root. So all that is said of f, w and τ holds of the far root, too.
 //!
 //! **Point and normal** of either root are where w, with d τ, leads. What that is off by is at most the smaller of
 //!
@@ -59,9 +59,10 @@
 
 use glam::DVec3;
 
+use super::answer::{Found, Side};
 use super::chord::Chord;
-use super::crossing::{Found, Line};
 use super::format::Format;
+use super::line::Line;
 use super::points::{self, Crossing, Near};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{Pair, U, fast_two_sum, two_sum};
@@ -185,7 +186,7 @@ impl Corrected {
         self.w.high + (self.w.low + self.correction)
     }
 
-    /// The hit, if it is certain how that is rounded: with |d|, √m and half the chord s.
+    /// The hit at a far root, if it is certain how that is rounded: with |d|, √m and half the chord s.
     ///
     /// By the error of the case, which is far less than [`ROOT_ERROR`] where the chord is long.
     #[inline(always)]
@@ -201,7 +202,7 @@ impl Corrected {
         let offset = Triple::from(self.w.high).zip(low, |hi, lo| Pair { hi, lo });
         let [point, offset] =
             [self.point_in_pairs(), offset].map(|value| Near::within(value, error));
-        let crossing = Crossing::new(point, offset, line.radius);
+        let crossing = Crossing::new(Side::Far, point, offset, line.radius);
         points::surely(line, Format::F64, self.t.hi, crossing)
     }
 }

@@ -4,20 +4,16 @@
 //! A root is in doubt only where a number that it is compared with has no room beside the coordinates. Points are computed from
 //! numbers rounded to 96 bits, and may be in doubt.
 
-mod narrow;
-
-use core::cmp::Ordering;
-
-use narrow::Narrow;
-
-use super::crossing::{Crossings, Found, Line, Side, Verdict};
-use super::format::{Format, Midpoint};
-use super::pairs;
+use super::answer::{Crossings, Found, Side, Verdict};
+use super::format::Format;
+use super::line::Line;
+use super::moved_origin;
+use super::narrow::Narrow;
 use super::points::{self, normalized};
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{U, V};
+use crate::arithmetic::pair::V;
+use crate::arithmetic::scaled_pair::ScaledPair;
 use crate::arithmetic::scaling::{exponent, scale};
-use crate::arithmetic::wide::Wide;
 
 #[cfg(test)]
 mod tests;
@@ -33,63 +29,19 @@ mod tests;
 /// ```
 ///
 /// That is 2,579 v at most.
-pub(super) const ROOT_ERROR: f64 = 4096.0 * V;
+const ROOT_ERROR: f64 = 4096.0 * V;
 
 /// Where a pair loses nothing.
 const MIDDLE: i32 = 900;
-
-impl Narrow {
-    /// How the root on that side compares with a number midway between two floats. `None` where 256 bits have no room for that.
-    fn compare_root(&self, line: &Line, side: Side, number: Midpoint) -> Option<Ordering> {
-        let quadratic = self.quadratic_at(number)?;
-        if quadratic.is_lt() {
-            // Within the chord.
-            return Some(if side == Side::Near { Ordering::Less } else { Ordering::Greater });
-        }
-        let ahead = plainly_ahead(line, number).or_else(|| self.ahead_of(number))?;
-        Some(match (side, quadratic) {
-            // Outside the chord, the number lies before both roots or behind both.
-            (_, Ordering::Greater) => ahead,
-            // At a root: at the near one where the closest approach is still ahead, at the far one where it is past.
-            (Side::Near, _) if ahead.is_ge() => Ordering::Equal,
-            (Side::Far, _) if ahead.is_le() => Ordering::Equal,
-            (Side::Near, _) => Ordering::Less,
-            (Side::Far, _) => Ordering::Greater,
-        })
-    }
-}
-
-/// The sign of what is from a number to the closest approach, h - a m, where that is certain in plain `f64`.
-fn plainly_ahead(line: &Line, number: Midpoint) -> Option<Ordering> {
-    /// Of the products' absolute values: o and m are rounded once, the products twice, and sums three times.
-    const ERROR: f64 = 8.0 * U;
-    /// Above what underflows.
-    const LEAST: f64 = f64::MIN_POSITIVE / U;
-    #[expect(clippy::cast_precision_loss, reason = "it is rounded once")]
-    let m = scale(number.integer as f64, number.exponent);
-    let (o, d) = (line.center - line.origin, line.direction);
-    let (h, am) = (d.dot(o), d.dot(d * m));
-    let (ahead, size) = (h - am, d.abs().dot(o.abs()) + am.abs());
-    let is_certain =
-        m.is_normal() && ahead.abs() > ERROR * size && ahead.abs() > LEAST && size.is_finite();
-    if is_certain { ahead.partial_cmp(&0.0) } else { None }
-}
-
-/// How the root on that side compares with a number midway between two floats. `None` where only integers of many digits tell.
-#[cold]
-#[inline(never)]
-pub(super) fn compare_root(line: &Line, side: Side, number: Midpoint) -> Option<Ordering> {
-    Narrow::new(line)?.compare_root(line, side, number)
-}
 
 /// The chord, and what it belongs to.
 pub(super) struct InIntegers<'a> {
     line: &'a Line,
     format: Format,
     exact: Narrow,
-    a: Wide,
-    h: Wide,
-    half_chord: Wide,
+    a: ScaledPair,
+    h: ScaledPair,
+    half_chord: ScaledPair,
 }
 
 /// Takes the chord of a line. It is in doubt where the coordinates span too many places, and where one is no number.
@@ -108,7 +60,7 @@ pub(super) fn chord(line: &Line, format: Format) -> Verdict<InIntegers<'_>> {
 }
 
 impl InIntegers<'_> {
-    fn estimate(&self, side: Side) -> Wide {
+    fn estimate(&self, side: Side) -> ScaledPair {
         let Self { a, h, half_chord, .. } = *self;
         if half_chord.is_zero() {
             return h / a;
@@ -128,7 +80,7 @@ impl InIntegers<'_> {
     /// The hit from the foot of the closest approach, where neither the distance nor the length of the chord counts.
     #[cold]
     #[inline(never)]
-    fn hit_from_closest_approach(&self, side: Side, t: f64, root: Wide) -> Option<Found> {
+    fn hit_from_closest_approach(&self, side: Side, t: f64, root: ScaledPair) -> Option<Found> {
         let Line { direction, radius, .. } = *self.line;
         let (radius, length_exponent) = normalized(radius);
         let direction_exponent = exponent(direction.abs().max_element());
@@ -145,15 +97,15 @@ impl InIntegers<'_> {
         );
         let root_exponent = root.exponent();
         let root = (root.scaled(-root_exponent), root_exponent, ROOT_ERROR);
-        let crossing = points::Crossing::from_root(self.line, root, offset, radius);
+        let crossing = points::Crossing::from_root(self.line, side, root, offset, radius);
         points::surely(*self.line, self.format, t, crossing)
     }
 }
 
 impl Crossings for InIntegers<'_> {
-    type Root = Wide;
+    type Root = ScaledPair;
 
-    fn root(&mut self, side: Side) -> Option<(f64, Wide)> {
+    fn root(&mut self, side: Side) -> Option<(f64, ScaledPair)> {
         let exact = self.estimate(side);
         let compare = |number| self.exact.compare_root(self.line, side, number);
         let t = if exact.is_zero() {
@@ -166,11 +118,11 @@ impl Crossings for InIntegers<'_> {
         Some((t, exact))
     }
 
-    fn hit(&mut self, side: Side, t: f64, root: Wide) -> Option<Found> {
+    fn hit(&mut self, side: Side, t: f64, root: ScaledPair) -> Option<Found> {
         if self.line.radius == 0.0 {
             return points::at_center(self.line, self.format, t, self.a);
         }
-        pairs::hit_at(self.line, self.format, t, root)
+        moved_origin::hit_at(self.line, self.format, side, t, (root, ROOT_ERROR))
             .or_else(|| self.hit_from_closest_approach(side, t, root))
     }
 }

@@ -1,23 +1,24 @@
 //! From a ray and a sphere to a correctly rounded root: arithmetic that is tried step by step, until one is certain.
 //!
-//! A [`chord`] is what both derivations find: how far away the line passes, and where. The way from there to the root reads
-//! downwards in this table; [`in_f32`] and [`in_f64`] are where it begins, in the user's code, and from `pairs` on it is one
-//! function for both precisions. [`format`](mod@format) rounds, and [`crossing`] chooses the root that a ray hits.
+//! A [`chord`] is what both derivations find of a [`line`](mod@line) and a sphere: how far away the line passes, and where. The
+//! way from there to the root reads downwards in this table; [`single`] and [`double`] are where it begins, in the user's code,
+//! and from [`moved_origin`] on it is one function for both precisions. [`power`] has o·o - r² where nearly all of it cancels,
+//! [`format`](mod@format) rounds, [`points`] finds points and normals, and [`answer`] chooses the root that a ray hits.
 //!
 //! | step | arithmetic | error known by | decides | ns, of a family |
 //! |:--|:--|:--|:--|:--|
 //! | [`plain`] | `f64` | one bound for all cases | hit, miss and root in `f32`; hit and miss in `f64` | 7, "inside" in `f32` |
 //! | [`halves`] | `f64`, exact in the leading 26 bits | one bound for all cases | the root in `f64` | 22, "inside" in `f64` |
-//! | again | `f64` with a finer power, or by the closest approach with a bound of the case ([`bounded`]) | the same | `f32` close to the surface and from afar | 13, "on the surface" in `f32` |
-//! | [`surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface | 54, "on the surface" in `f64` |
-//! | [`pairs`] | offsets and powers in pairs of `f64`, the rest in `f64` | a bound of the case | the limb, and from afar in `f64` | 86, "at the limb from afar" in `f64` |
-//! | [`integers`] | integers of 64 bits, products of 256 | exact | tangents, ties | 173 and 171, "exact tangent" |
+//! | again | `f64` with a finer power, or by the closest approach with a bound of the case ([`bounded_chord`]) | the same | `f32` close to the surface and from afar | 13, "on the surface" in `f32` |
+//! | [`near_surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface | 54, "on the surface" in `f64` |
+//! | [`moved_origin`] | offsets and powers in pairs of `f64`, the rest in `f64` | a bound of the case | the limb, and from afar in `f64` | 86, "at the limb from afar" in `f64` |
+//! | [`integers`] | integers of 64 bits, products of 256 ([`narrow`]) | exact | tangents, ties | 173 and 171, "exact tangent" |
 //! | [`surds`] | integers of many digits | exact | coordinates that span more places, points next to a midpoint or to zero | 1,452, "tie of a tiny sphere" in `f64` |
 //!
 //! How many in a hundred each decides (`cargo test --release --lib how_often -- --nocapture` has every family; "again" counts
-//! [`surface`], and a root compared with the midpoint of two floats counts as integers in `f32`):
+//! [`near_surface`], and a root compared with the midpoint of two floats counts as integers in `f32`):
 //!
-//! | rays and spheres | | plain, halves | again | pairs | integers |
+//! | rays and spheres | | plain, halves | again | moved origin | integers |
 //! |:--|:--|--:|--:|--:|--:|
 //! | unit sphere at 2 to 10 | `f32` | 99.7 | 0 | 0 | 0.3 |
 //! | | `f64` | 99.8 | 0 | 0.2 | 0 |
@@ -38,32 +39,37 @@
 //! A step that is not certain hands over to the next, and so does one that is certain of the root but not of the point. No step
 //! assumes what another has found, so each can be tested by itself.
 //!
-//! From [`surface`] on, and where a line starts exactly on the surface, the points and normals are correctly rounded, too
-//! ([`points`]). So all these steps answer alike, bit for bit, and those between the first and the last can be left out where
-//! there is no room for their code ([`Format::has_few_steps`]).
+//! From [`near_surface`] on, and where a line starts exactly on the surface, the points and normals are correctly rounded, too
+//! ([`points`], with the help of [`ties`]). So all these steps answer alike, bit for bit, and those between the first and the last
+//! can be left out where there is no room for their code ([`Format::has_few_steps`]).
 
-mod bounded;
+mod answer;
+mod bounded_chord;
 pub(crate) mod chord;
-mod crossing;
+mod double;
 mod format;
 mod halves;
-mod in_f32;
-mod in_f64;
 mod integers;
+mod line;
+mod moved_origin;
+mod narrow;
+mod near_surface;
 pub(crate) mod order;
-mod pairs;
 mod plain;
 mod points;
+mod power;
 pub(crate) mod precision;
-mod scaled;
+mod scaled_line;
+mod single;
 mod surds;
-mod surface;
+mod ties;
 
 use core::ops::Range;
 
-pub(crate) use crossing::Side;
-use crossing::{Answer, Found, Line, Question, Verdict};
+pub(crate) use answer::Side;
+use answer::{Answer, Found, Question, Verdict};
 use format::Format;
+use line::Line;
 
 #[cfg(test)]
 mod any_exponent;
@@ -109,7 +115,7 @@ fn ask_carefully(line: &Line, format: Format, question: &Question) -> Option<Ans
 #[cold]
 #[inline(never)]
 fn carefully(line: &Line, format: Format, question: &Question) -> Option<Answer> {
-    match pairs::chord(line, format).and_then(|mut chord| question.ask(&mut chord)) {
+    match moved_origin::chord(line, format).and_then(|mut chord| question.ask(&mut chord)) {
         Verdict::Miss => None,
         Verdict::Hit(answer) => Some(answer),
         Verdict::Doubt => in_integers(line, format, question),

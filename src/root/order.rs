@@ -7,20 +7,21 @@
 //! H + x + y   with 0,   H = h₁ - h₂ = d·(c₁ - c₂),   x = ∓√D₁,   y = ±√D₂
 //! ```
 //!
-//! From a point of the line close to both crossings, exactly moved there, h ∓ √D is next to nothing, and plain `f64` tells it within
-//! some u r |d| ([`Nearby`]). That decides nearly all crossings whose roots round alike, in both precisions, unless they are equal.
-//! What is left is decided by integers: the sign of x + y by comparing D₁ with D₂; that of H + (x + y) by comparing H² with
-//! (x + y)² = D₁ + D₂ + 2 x y; and that, with K = H² - D₁ - D₂, by comparing K² with 4 D₁ D₂.
+//! From a point of the line close to both crossings, exactly moved there, h ∓ √D is next to nothing, and plain `f64` tells it
+//! within some u r |d| ([`Nearby`]). That decides nearly all crossings whose roots round alike, in both precisions, unless they
+//! are equal. What is left is decided by integers: the sign of x + y by comparing D₁ with D₂; that of H + (x + y) by comparing H²
+//! with (x + y)² = D₁ + D₂ + 2 x y; and that, with K = H² - D₁ - D₂, by comparing K² with 4 D₁ D₂.
 
 use core::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::bounded::Bounded;
+use super::answer::Side;
+use super::bounded_chord::Bounded;
 use super::chord::Chord;
-use super::crossing::{Line, Side};
-use super::in_f64::is_safe;
-use super::pairs::offset;
+use super::double::is_safe;
+use super::line::Line;
+use super::moved_origin::offset;
 use super::surds::{Unit, compute_chord};
 use crate::arithmetic::integer::{Integer, PLACES, Shifted};
 use crate::arithmetic::number::Triple;
@@ -35,8 +36,8 @@ mod tests;
 /// Whether the first of two hits of one ray, each given as its index and its `t`, comes before the second: the order of all that
 /// returns a nearest hit.
 ///
-/// First by `t`. Where that is equal, by the exact roots of the two spheres that are hit, which are asked for only then; where these
-/// are equal too, and where one object is no sphere, by index.
+/// First by `t`. Where that is equal, by the exact roots of the two spheres that are hit, which are asked for only then; where
+/// these are equal too, and where one object is no sphere, by index.
 #[inline(always)]
 pub(crate) fn is_nearer<V: Vector, I: Ord>(
     ray: &Ray<V>,
@@ -205,8 +206,8 @@ impl Nearby {
         if side == Side::Near { near } else { far }
     }
 
-    /// Which of the roots rounds to that point, where the next float is an ulp away, and the one before as far, or half as far from
-    /// a power of two.
+    /// Which of the roots rounds to that point, where the next float is an ulp away, and the one before as far, or half as far
+    /// from a power of two.
     #[inline(always)]
     fn side_within(&self, ulp: f64, is_power_of_two: bool) -> Within {
         let half_ulp = 0.5 * ulp * self.a;

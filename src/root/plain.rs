@@ -41,8 +41,8 @@
 //! δ / 2 s and at most (δ / 2 s) (δ / s²) more where the discriminant errs by δ. Because |h| + s ≤ 2 √(a m), s is above clear √(a
 //! m) / 2, so δ / s² < 84 u / clear² < 2⁻¹⁴, and the term takes less than 50 u.
 //!
-//! **The far root**, where the near one is not in the range asked for: t = (h + s) / a. An accepted root has s (|h| + s) > clear a m,
-//! as was said, and so this root errs by what the discriminant, h, a and the roundings bring, which is less than the above.
+//! **The far root**, where the near one is not in the range asked for: t = (h + s) / a. An accepted root has s (|h| + s) > clear
+//! a m, as was said, and so this root errs by what the discriminant, h, a and the roundings bring, which is less than the above.
 
 use super::chord::Chord;
 use crate::arithmetic::comparison::{exceeds, is_not_positive, product_exceeds};

@@ -5,19 +5,22 @@
 //! dividend is the exact one, rounded to the digits of the format; the quotient is rounded once more; and below half an ulp of 1
 //! it is zero.
 //!
-//! Both ends of an interval that holds a coordinate are rounded, as those of a root are. Where they differ, the point is
-//! taken from the origin instead of the center ([`Crossing::from_root`]), and then the next step has to look.
+//! Both ends of an interval that holds a coordinate are rounded, as those of a root are. Where they are neighbors, the point's
+//! coordinate is compared with the number midway ([`ties`]). Otherwise the point is taken from the origin instead of the center
+//! ([`Crossing::from_root`]), and then the next step has to look.
 
 use core::ops::Range;
 
 use glam::DVec3;
 
-use super::crossing::{Found, Line};
+use super::answer::{Found, Side};
 use super::format::Format;
+use super::line::Line;
+use super::ties;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{Pair, V, two_difference, two_sum};
+use crate::arithmetic::scaled_pair::ScaledPair;
 use crate::arithmetic::scaling::{self, exponent, integer_and_exponent, scale};
-use crate::arithmetic::wide::Wide;
 
 #[cfg(test)]
 mod tests;
@@ -93,6 +96,7 @@ fn on_the_line(line: &Line, root: Pair, exponent: i32, relative_error: f64) -> (
 /// Where a line crosses a sphere.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Crossing {
+    pub(super) side: Side,
     /// In units of 2^`units`.
     pub(super) point: Near,
     pub(super) units: Triple<i32>,
@@ -104,19 +108,20 @@ pub(super) struct Crossing {
 impl Crossing {
     /// The point in the caller's units.
     #[inline(always)]
-    pub(super) fn new(point: Near, offset: Near, radius: f64) -> Self {
-        Self { point, units: Triple { x: 0, y: 0, z: 0 }, offset, radius }
+    pub(super) fn new(side: Side, point: Near, offset: Near, radius: f64) -> Self {
+        Self { side, point, units: Triple { x: 0, y: 0, z: 0 }, offset, radius }
     }
 
     /// The point as p + t d, with t = `root` 2^`exponent` known within a part of itself.
     pub(super) fn from_root(
         line: &Line,
+        side: Side,
         (root, exponent, relative_error): (Pair, i32, f64),
         offset: Near,
         radius: f64,
     ) -> Self {
         let (point, units) = on_the_line(line, root, exponent, relative_error);
-        Self { point, units, offset, radius }
+        Self { side, point, units, offset, radius }
     }
 }
 
@@ -125,7 +130,7 @@ impl Crossing {
 pub(super) fn surely(line: Line, format: Format, t: f64, crossing: Crossing) -> Option<Found> {
     /// Where all coordinates of a normal are far above the subnormal `f32`, and no scaled number overflows.
     const MIDDLE: Range<f64> = 1.0 / 1_099_511_627_776.0..1_099_511_627_776.0; // 2^-40 to 2^40
-    let Crossing { point, units, mut offset, mut radius } = crossing;
+    let Crossing { side, point, units, mut offset, mut radius } = crossing;
     if !MIDDLE.contains(&radius) {
         (offset, radius) = scaled(offset, radius)?;
     }
@@ -151,7 +156,7 @@ pub(super) fn surely(line: Line, format: Format, t: f64, crossing: Crossing) -> 
     let are_certain = low.iter().zip(&high).fold(true, |all, (low, high)| all & (low == high));
     if !(are_certain & is_large) {
         // A copy, so that the line itself need not be in memory.
-        return next_to_zero(&{ line }, format, t, [low, high], radius);
+        return in_doubt(&{ line }, format, side, t, [low, high], radius);
     }
     // A zero has no sign.
     let point = DVec3::new(x, y, z) + DVec3::ZERO;
@@ -189,9 +194,10 @@ fn scaled(offset: Near, radius: f64) -> Option<(Near, f64)> {
 /// The same where a coordinate is zero, or next to it, or in doubt: of the ends of point and offset.
 #[cold]
 #[inline(never)]
-fn next_to_zero(
+fn in_doubt(
     line: &Line,
     format: Format,
+    side: Side,
     t: f64,
     [low, high]: [[f64; 6]; 2],
     radius: f64,
@@ -212,12 +218,15 @@ fn next_to_zero(
             let offset = format.nearest(scale(difference.hi, -exponent));
             normal[axis] = self::normal(format, offset, radius);
         } else {
-            point[axis] = certain(low[0], high[0])? + 0.0;
             // The quotient by the radius is rounded twice, to 53 bits and to those of the format, at most by 2⁻²⁴ of itself each
             // time: it stays below the least where it is below 1 - 2⁻²² of that. What lies between is left to the next step.
             let is_zero = low[1].abs().max(high[1].abs()) < radius * least(format) * 0.999;
             normal[axis] =
                 if is_zero { 0.0 } else { self::normal(format, certain(low[1], high[1])?, radius) };
+            let compare = |number| ties::compare(line, side, axis, number);
+            let coordinate =
+                certain(low[0], high[0]).or_else(|| format.nearer([low[0], high[0]], compare))?;
+            point[axis] = coordinate + 0.0;
         }
     }
     Some(Found { t, point, normal })
@@ -261,7 +270,7 @@ pub(super) fn from_closest_approach(
 /// The hit of a sphere of radius 0, if it is certain how that is rounded: there is no outward normal, but one back along the ray.
 #[cold]
 #[inline(never)]
-pub(super) fn at_center(line: &Line, format: Format, t: f64, a: Wide) -> Option<Found> {
+pub(super) fn at_center(line: &Line, format: Format, t: f64, a: ScaledPair) -> Option<Found> {
     /// a is known within 2⁻⁹⁶ of itself, 1,024 v: its root within half of that and 4 v, and the quotient within 10 v more, 526 v.
     const ERROR: f64 = 4096.0 * V;
     let direction = line.direction.to_array();

@@ -26,7 +26,8 @@ pub trait Precision: Sized {
     where
         Self: Vector;
 
-    /// Where the ray leaves the sphere, if `t` is above 0 and finite there, told from where it enters even if both have the same `t`.
+    /// Where the ray leaves the sphere, if `t` is above 0 and finite there, told from where it enters even if both have the same
+    /// `t`.
     fn exit_at_same_t(sphere: &Sphere<Self>, ray: &Ray<Self>) -> Option<Hit<Self>>
     where
         Self: Vector;

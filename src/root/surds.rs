@@ -18,13 +18,14 @@
 
 use glam::DVec3;
 
-use super::crossing::{Answer, Crossings, Found, Line, Question, Side, Verdict};
+use super::answer::{Answer, Crossings, Found, Question, Side, Verdict};
 use super::format::Format;
+use super::line::Line;
 use super::points;
 use crate::arithmetic::comparison::is_zero;
-use crate::arithmetic::float::Float;
 use crate::arithmetic::integer::{Integer, PLACES, Shifted};
 use crate::arithmetic::pair::U;
+use crate::arithmetic::scaled_float::ScaledFloat;
 use crate::arithmetic::scaling::{integer_and_exponent, scale};
 
 #[cfg(test)]
@@ -39,17 +40,17 @@ const FEW_DIGITS: usize = digits_of([600, 100]);
 
 /// The digits of the largest integer for lines whose lengths and directions have so many binary places, p and q: no sum has more.
 ///
-/// d is below 2ᵠ and o below 2ᵖ⁺¹, in each coordinate. The widest number is that of the normal. Its A, h d - a o, is below 2ᵖ⁺²ᵠ⁺⁵, as
-/// is every sum on the way to it. B √D is less, and where a multiple of a place is subtracted, less than twice as much is left. The
-/// place may be `finer` by so many binary places than the unit of A. The norm has twice as many places. A sum has one digit more
-/// than the product that is added.
+/// d is below 2ᵠ and o below 2ᵖ⁺¹, in each coordinate. The widest number is that of the normal. Its A, h d - a o, is below
+/// 2ᵖ⁺²ᵠ⁺⁵, as is every sum on the way to it. B √D is less, and where a multiple of a place is subtracted, less than twice as
+/// much is left. The place may be `finer` by so many binary places than the unit of A. The norm has twice as many places. The
+/// digits of two factors are together at most one more than those of their product, and a sum has one digit more than these.
 const fn digits([lengths, directions]: [u32; 2], finer: u32) -> usize {
     let rational = (lengths + 2 * directions + 6 + finer).div_ceil(PLACES);
-    (2 * rational + 1) as usize
+    (2 * rational + 2) as usize
 }
 
-/// The same where the unit of A may be any. A number that is not zero is at least 1 / (2 |A| C), where the norm is 1, and so above
-/// 2⁻ᵖ⁻⁴ᵠ⁻⁹; a midpoint is 55 places finer at most.
+/// The same where the unit of A may be any. A number that is not zero is at least 1 / (2 |A| C), where the norm is 1, and so
+/// above 2⁻ᵖ⁻⁴ᵠ⁻⁹; a midpoint is 55 places finer at most.
 const fn digits_of([lengths, directions]: [u32; 2]) -> usize {
     digits([lengths, directions], lengths + 4 * directions + 64)
 }
@@ -83,8 +84,8 @@ struct Scratch<'m> {
 
 impl Surd<'_, '_> {
     /// The number less `integer` 2^`exponent`, within [`ERROR`] of itself.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
-    fn less(&self, integer: i64, exponent: i32, scratch: &mut Scratch) -> Float {
+    #[inline(never)]
+    fn less(&self, integer: i64, exponent: i32, scratch: &mut Scratch) -> ScaledFloat {
         let Scratch { rational, square, norm } = scratch;
         // In the finer of the two units.
         let finer = (self.unit - exponent).max(0);
@@ -98,8 +99,8 @@ impl Surd<'_, '_> {
         let places = self.coefficient.places + finer.unsigned_abs();
         let coefficient = Shifted { places, ..self.coefficient };
 
-        let x = rational.to_float();
-        let y = coefficient.to_float() * self.discriminant.to_float().sqrt();
+        let x = rational.to_scaled_float();
+        let y = coefficient.to_scaled_float() * self.discriminant.to_scaled_float().sqrt();
         let mut sum = x + y;
         if sum.is_less_than(x.times(0.25)) {
             square.clear();
@@ -107,17 +108,17 @@ impl Surd<'_, '_> {
             norm.clear();
             norm.add(rational, rational);
             norm.add_times(square, coefficient.negated());
-            sum = norm.to_float() / (x - y);
+            sum = norm.to_scaled_float() / (x - y);
         }
-        let Float { value, exponent } = sum / self.denominator.to_float();
-        Float { value, exponent: exponent + self.unit - finer }
+        let ScaledFloat { value, exponent } = sum / self.denominator.to_scaled_float();
+        ScaledFloat { value, exponent: exponent + self.unit - finer }
     }
 
     /// The number, rounded.
     ///
     /// It is divided into a multiple of the last place and what is left, until that tells which multiple is the nearest. Where
     /// what is left is next to a midpoint, how the number compares with that tells.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    #[inline(never)]
     fn round(&self, format: Format, scratch: &mut Scratch) -> f64 {
         /// Of fewer last places the error is far below half of one.
         const FEW: i64 = 1 << 32;
@@ -201,7 +202,7 @@ pub(super) struct Unit {
 
 impl Unit {
     /// The largest power of two that all coordinates are multiples of, any if these are zeros; `None` where one is not finite.
-    #[cfg_attr(not(target_pointer_width = "64"), inline(never))]
+    #[inline(never)]
     pub(super) fn common(vectors: &[DVec3]) -> Option<Self> {
         /// The exponent of the last place of the largest number.
         const LARGEST: i32 = 971;

@@ -10,7 +10,7 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 /// For how many crossings there is room without allocating.
 const FEW: usize = 4;
 
-/// Spheres that each have a place, and an index in the order in which they were given.
+/// Finds spheres by the place that a collection keeps them at, and their indices in the order in which they were given.
 pub(super) trait Places<V: Vector> {
     /// The sphere at a place.
     fn sphere(&self, place: usize) -> Option<Sphere<V>>;

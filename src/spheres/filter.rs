@@ -48,7 +48,7 @@ const COORDINATE_MARGIN: f64 = 1.5 * f32::EPSILON as f64;
 pub(super) const LARGEST: f32 = f32::from_bits((127 + 60) << 23); // 2^60
 
 /// The least square of a direction's length that it computes with.
-pub(super) const LEAST_SQUARE: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
+pub(super) const LEAST_SQUARE: f32 = f32::SQUARES[0];
 
 /// What the filter knows of 16 spheres.
 ///
@@ -187,16 +187,19 @@ fn enlarged_square(radius: f64, margin: f32) -> f32 {
 }
 
 /// What the filter knows of a ray.
+///
+/// The quotient is the last: the compiler writes four numbers together, and the loop, which reads each alone, would have to wait for
+/// the division before it begins.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Segment {
     origin: Vec3,
     direction: Vec3,
     /// d·d.
     a: f32,
-    /// 1 / d·d, made larger.
-    one_over_a: f32,
     /// a times the t at which the segment begins.
     shortest: f32,
+    /// 1 / d·d, made larger.
+    one_over_a: f32,
     /// Where on the ray its origin is.
     moved: f64,
 }
@@ -222,7 +225,7 @@ impl Segment {
         let a = direction.length_squared();
         let one_over_a = (1.0 + margin) / a;
         let shortest = local_start::<V>(start, 0.0) * a;
-        Self { origin, direction, a, one_over_a, shortest, moved: 0.0 }
+        Self { origin, direction, a, shortest, one_over_a, moved: 0.0 }
     }
 
     /// Of a ray that begins anew.

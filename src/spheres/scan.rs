@@ -295,12 +295,46 @@ impl<V: Vector> Spheres<V> {
         ray: &Ray<V>,
         range: Range<V::Scalar>,
     ) -> Option<(usize, Hit<V>)> {
+        if self.blocks.len() > BLOCKS_IN_A_WORD {
+            return self.nearest_of_many(lanes, ray, range);
+        }
+        // Not one segment for rays from near and from afar: in one place for both, its numbers would be written, and waited for.
+        match self.near_segment(ray, range.start) {
+            Some(segment) => {
+                self.nearest_of(self.word_near(lanes, &segment, range.end), ray, range)
+            }
+            None => self.nearest_from_afar(lanes, ray, range),
+        }
+    }
+
+    /// The same of a ray that begins far away, or that the filter cannot compute with.
+    #[cold]
+    #[inline(never)]
+    fn nearest_from_afar(
+        &self,
+        lanes: Lanes,
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> Option<(usize, Hit<V>)> {
+        match self.segment_from_afar(ray, &range) {
+            Some(segment) => {
+                self.nearest_of(self.word_near(lanes, &segment, range.end), ray, range)
+            }
+            None => nearest(&self.spheres, ray, range),
+        }
+    }
+
+    /// The same where no word has a bit for each sphere.
+    #[inline(never)]
+    fn nearest_of_many(
+        &self,
+        lanes: Lanes,
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> Option<(usize, Hit<V>)> {
         let Some(segment) = self.segment(ray, &range) else {
             return nearest(&self.spheres, ray, range);
         };
-        if let Some(near) = self.word_near(lanes, &segment, range.end) {
-            return self.nearest_of(near, ray, range);
-        }
         let mut near = Near::new(self, lanes, &segment);
         nearest_among(ray, range, |end| near.next(segment.end(end)))
     }
@@ -312,12 +346,31 @@ impl<V: Vector> Spheres<V> {
         ray: &Ray<V>,
         range: Range<V::Scalar>,
     ) -> bool {
+        if self.blocks.len() > BLOCKS_IN_A_WORD {
+            return self.any_of_many(lanes, ray, range);
+        }
+        match self.near_segment(ray, range.start) {
+            Some(segment) => self.any_of(self.word_near(lanes, &segment, range.end), ray, range),
+            None => self.any_from_afar(lanes, ray, range),
+        }
+    }
+
+    /// The same of a ray that begins far away, or that the filter cannot compute with.
+    #[cold]
+    #[inline(never)]
+    fn any_from_afar(&self, lanes: Lanes, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
+        match self.segment_from_afar(ray, &range) {
+            Some(segment) => self.any_of(self.word_near(lanes, &segment, range.end), ray, range),
+            None => self.spheres.occludes(ray, range),
+        }
+    }
+
+    /// The same where no word has a bit for each sphere.
+    #[inline(never)]
+    fn any_of_many(&self, lanes: Lanes, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
         let Some(segment) = self.segment(ray, &range) else {
             return self.spheres.occludes(ray, range);
         };
-        if let Some(near) = self.word_near(lanes, &segment, range.end) {
-            return self.any_of(near, ray, range);
-        }
         let mut near = Near::new(self, lanes, &segment);
         let end = segment.end(range.end);
         iter::from_fn(|| near.next(end)).any(|(_, sphere)| sphere.occludes(ray, range.clone()))
@@ -326,13 +379,19 @@ impl<V: Vector> Spheres<V> {
     /// What the filter knows of a ray, if it can compute with that.
     #[inline(always)]
     fn segment(&self, ray: &Ray<V>, range: &Range<V::Scalar>) -> Option<Segment> {
-        let (origin, direction) = self.relative(ray);
-        if Segment::allows(origin, direction, self.middle.near_squared) {
-            Some(Segment::new::<V>(origin, direction, range.start, MARGIN))
-        } else {
+        match self.near_segment(ray, range.start) {
+            Some(segment) => Some(segment),
             // Not returned as it is: with one place for both, what was just written would be copied, and waited for.
-            Some(self.segment_from_afar(ray, range)?)
+            None => Some(self.segment_from_afar(ray, range)?),
         }
+    }
+
+    /// What the filter knows of a ray, if that does not begin far away and the filter can compute with it.
+    #[inline(always)]
+    fn near_segment(&self, ray: &Ray<V>, start: V::Scalar) -> Option<Segment> {
+        let (origin, direction) = self.relative(ray);
+        Segment::allows(origin, direction, self.middle.near_squared)
+            .then(|| Segment::new::<V>(origin, direction, start, MARGIN))
     }
 
     /// The same of one that begins far away.
@@ -365,7 +424,9 @@ impl<V: Vector> Spheres<V> {
     ) {
         if self.len() <= FEW {
             Bits(self.few_near(ray, range.start)).for_each(ask);
-        } else if let Some(segment) = self.segment(ray, range) {
+        } else if let Some(segment) =
+            self.near_segment(ray, range.start).or_else(|| self.segment_from_afar(ray, range))
+        {
             let mut near = Near::new(self, lanes, &segment);
             let end = segment.end(range.end);
             while let Some((index, _)) = near.next(end) {
@@ -390,12 +451,11 @@ impl<V: Vector> Spheres<V> {
         }
     }
 
-    /// A bit for each sphere that the ray may meet before `end`, and perhaps for others, if a word has bits for all.
+    /// A bit for each sphere that the ray may meet before `end`, and perhaps for others, where a word has bits for all.
     #[inline(always)]
-    fn word_near(&self, lanes: Lanes, segment: &Segment, end: V::Scalar) -> Option<u64> {
+    fn word_near(&self, lanes: Lanes, segment: &Segment, end: V::Scalar) -> u64 {
         let blocks = self.blocks.as_slice();
-        (blocks.len() <= BLOCKS_IN_A_WORD)
-            .then(|| lanes.run(&Filter { blocks, segment, end: segment.end(end) }).1)
+        lanes.run(&Filter { blocks, segment, end: segment.end(end) }).1
     }
 
     /// The nearest of those of the first 64 that have a bit. Where none has, that takes no call.

@@ -10,19 +10,14 @@ use super::lanes::Lanes;
 use super::{SphereBvh, Spheres};
 use crate::{Hit, Hittable, Ray, Scalar, Sphere, Vector, nearest};
 
-#[allow(
-    clippy::duplicate_mod,
-    reason = "those of the integration tests, which other unit tests take too"
-)]
-#[path = "../../tests/support/families.rs"]
-pub(super) mod families;
 mod pictures;
 
+pub(super) use crate::testing::families;
 use families::{FAMILIES, Family, Rng};
 
 /// What the tests need of a precision.
 pub(super) trait Tested: Vector {
-    /// A case of a family.
+    /// One ray and one sphere of a family of random tests.
     fn case(family: &Family, rng: &mut Rng) -> (Ray<Self>, Sphere<Self>);
     /// The number of these bits, as many as it takes.
     fn from_bits(bits: u64) -> Self::Scalar;
@@ -367,7 +362,8 @@ fn finds_large_spheres_from_afar<V: Tested>() {
     assert!(hits > cases(1000), "{hits}");
 }
 
-/// A scene in the middle of nowhere, with strays and clusters far from each other, seen from near, from afar and from between.
+/// Compares the collections with a slice where spheres are far from the world's origin, with strays and distant clusters, for rays
+/// from near, from afar and from between.
 fn finds_every_sphere_wherever_it_is<V: Tested>() {
     let mut rng = Rng::new(5);
     let (mut asked, mut hits) = (0, 0);

@@ -1,5 +1,5 @@
 #@ -Eprecision=256 -Eno-auto-dichotomy
-# The bound of the case, src/root/bounded.rs. Lengths are divided by |o| and directions by |d|, so that P = |o| |d| = 1. Each e
+# The bound of the case, src/root/bounded_chord.rs. Lengths are divided by |o| and directions by |d|, so that P = |o| |d| = 1. Each e
 # is the error of one rounding, at most u = 2⁻⁵³. M is the length of o × d as computed.
 #
 # By hand:

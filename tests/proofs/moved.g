@@ -1,5 +1,5 @@
 #@ -Eprecision=256 -Eno-auto-dichotomy
-# The closest approach of a moved origin, src/root/pairs.rs. Directions are divided by √a: so a = |d| = 1 and P = |o|. R is the
+# The closest approach of a moved origin, src/root/moved_origin.rs. Directions are divided by √a: so a = |d| = 1 and P = |o|. R is the
 # larger of |w| and r. Each e is the error of one rounding, at most u = 2⁻⁵³, and v = u².
 #
 # By hand:

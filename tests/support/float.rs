@@ -1,5 +1,7 @@
 //! The two floating-point formats: which numbers they have, and how far apart these are.
 
+use std::cmp::Ordering;
+
 use eyeray::Scalar;
 
 use super::dyadic::Dyadic;
@@ -58,6 +60,36 @@ pub trait Float: Scalar {
             (above_least << (Self::DIGITS - 1)) + integer
         };
         if number.is_negative() { -magnitude } else { magnitude }
+    }
+
+    /// The value nearest to a number, of two equally near ones the even one. From the largest finite value and half an ulp on it
+    /// is infinite; a zero has the sign of the number.
+    fn nearest(number: &Dyadic) -> Self {
+        Self::nearest_by(number, |other| number.cmp(other))
+    }
+
+    /// The same of a number that is known by how it compares with others, and `near` is close to it.
+    fn nearest_by(near: &Dyadic, compare: impl Fn(&Dyadic) -> Ordering) -> Self {
+        // What is near says where to look. Comparisons with the numbers midway to the neighbors decide; a number midway belongs
+        // to the even one.
+        let mut ordinal = Self::ordinal_towards_zero(near);
+        let belongs_above = |ordinal: i64| {
+            let twice_midway = &Self::number(ordinal) + &Self::number(ordinal + 1);
+            match compare(&twice_midway.scaled(-1)) {
+                Ordering::Less => false,
+                Ordering::Equal => ordinal % 2 != 0,
+                Ordering::Greater => true,
+            }
+        };
+        while ordinal < Self::INFINITE && belongs_above(ordinal) {
+            ordinal += 1;
+        }
+        while ordinal > -Self::INFINITE && !belongs_above(ordinal - 1) {
+            ordinal -= 1;
+        }
+        let value = Self::from_ordinal(ordinal);
+        let is_negative_zero = ordinal == 0 && compare(&Dyadic::ZERO).is_lt();
+        if is_negative_zero { Self::from_f64(-0.0) } else { value }
     }
 
     /// The exponent of an ulp of a number: of the last bit that the format keeps of it.

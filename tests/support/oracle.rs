@@ -15,7 +15,7 @@ use super::dyadic::Dyadic;
 use super::float::Float;
 
 /// How many bits of a root are kept where its exact value is not needed.
-const BITS: i64 = 192;
+pub const BITS: i64 = 192;
 
 /// A vector whose coordinates the oracle can read.
 pub trait Coordinates: Vector<Scalar: Float> {
@@ -108,7 +108,10 @@ impl<V: Coordinates> Truth<V> {
         } else {
             (squared_distance.magnitude() / 2 - radius.magnitude()).max(0)
         };
-        let roots = Root::both(&a, &h, &c, &discriminant, BITS + cancelled);
+        let roots = [-1, 1].map(|sign| {
+            let numbers = [&h, &Dyadic::new(sign, 0), &discriminant, &a].map(Dyadic::clone);
+            Root::new(numbers, BITS + cancelled)
+        });
         Some(Self { roots, direction, to_center, center, radius, precision: PhantomData })
     }
 
@@ -128,8 +131,8 @@ impl<V: Coordinates> Truth<V> {
     }
 
     /// The largest error of a coordinate of a point that was computed for a root, as a part of what is promised: half an ulp of
-    /// that coordinate and a hundredth, or an ulp where it is below 2^-900 or, in single precision, subnormal, and the smaller of a part of the distance travelled and a
-    /// part of the radius.
+    /// that coordinate and a hundredth, or an ulp where it is below 2^-900 or, in single precision, subnormal, and the smaller of
+    /// a part of the distance travelled and a part of the radius.
     pub fn point_error(&self, root: usize, point: V) -> f64 {
         let [of_distance, of_radius] = if V::Scalar::DIGITS == 24 { [30, 24] } else { [60, 53] };
         let allowed =
@@ -167,37 +170,35 @@ impl<V: Coordinates> Truth<V> {
     }
 }
 
-/// One root (h ± √N) / a.
+/// One root (h ± √N) / a, or any other such number.
 #[derive(Clone, Debug)]
 pub struct Root {
-    a: Dyadic,
     h: Dyadic,
-    discriminant: Dyadic,
     /// The sign of the square root.
     sign: Ordering,
+    discriminant: Dyadic,
+    a: Dyadic,
     /// The root, cut off after a few hundred bits.
     cut_off: Dyadic,
 }
 
 impl Root {
-    /// Both roots, ascending, cut off after at least `bits` bits.
-    fn both(a: &Dyadic, h: &Dyadic, c: &Dyadic, discriminant: &Dyadic, bits: i64) -> [Self; 2] {
-        // Where h and the square root have the same sign nothing cancels; the other root follows from their product.
+    /// (h + `factor` √N) / a, cut off after at least `bits` bits. N is not negative, and a is above 0.
+    pub fn new([h, factor, n, a]: [Dyadic; 4], bits: i64) -> Self {
+        let discriminant = &(&factor * &factor) * &n;
+        let sign = factor.sign();
         let square_root = discriminant.square_root(bits);
-        let h_with_square_root = if h.is_negative() { h - &square_root } else { h + &square_root };
-        let (larger, smaller) = if h_with_square_root.is_zero() {
-            (Dyadic::ZERO, Dyadic::ZERO)
+        let square_root = if sign.is_lt() { -&square_root } else { square_root };
+        let sum = if h.is_negative() == square_root.is_negative() {
+            &h + &square_root
         } else {
-            (h_with_square_root.divided_by(a, bits), c.divided_by(&h_with_square_root, bits))
+            // Without cancellation.
+            let norm = &(&h * &h) - &discriminant;
+            let difference = &h - &square_root;
+            if norm.is_zero() { norm } else { norm.divided_by(&difference, bits) }
         };
-        let (first, second) = if h.is_negative() { (larger, smaller) } else { (smaller, larger) };
-        [(Ordering::Less, first), (Ordering::Greater, second)].map(|(sign, cut_off)| Self {
-            a: a.clone(),
-            h: h.clone(),
-            discriminant: discriminant.clone(),
-            sign,
-            cut_off,
-        })
+        let cut_off = sum.divided_by(&a, bits);
+        Self { h, sign, discriminant, a, cut_off }
     }
 
     /// How the root compares with a number, exactly.
@@ -237,28 +238,9 @@ impl Root {
         }
     }
 
-    /// The value of the format nearest to the root, of two equally near ones the even one. A root that is no smaller
-    /// than the largest finite value and half an ulp is infinite; a zero has the sign of the root.
+    /// The value of the format nearest to the root: see [`Float::nearest`].
     pub fn nearest<F: Float>(&self) -> F {
-        // The root cut off says where to look. What it is is decided by exact comparison with the numbers midway to
-        // its neighbors; a number midway belongs to the even one.
-        let mut ordinal = F::ordinal_towards_zero(&self.cut_off);
-        let belongs_above = |ordinal: i64| {
-            let twice_midway = &F::number(ordinal) + &F::number(ordinal + 1);
-            match self.compare(&twice_midway.scaled(-1)) {
-                Ordering::Less => false,
-                Ordering::Equal => ordinal % 2 != 0,
-                Ordering::Greater => true,
-            }
-        };
-        while ordinal < F::INFINITE && belongs_above(ordinal) {
-            ordinal += 1;
-        }
-        while ordinal > -F::INFINITE && !belongs_above(ordinal - 1) {
-            ordinal -= 1;
-        }
-        let value = F::from_ordinal(ordinal);
-        if ordinal == 0 && self.compare(&Dyadic::ZERO).is_lt() { -value } else { value }
+        F::nearest_by(&self.cut_off, |number| self.compare(number))
     }
 
     /// How far a computed value is from the root, in ulps of the root.

@@ -87,7 +87,7 @@ fn the_leading_digits_are_within_3_u() {
         a.add_number(factor(&mut random));
         sum.add_times(&a, factor(&mut random));
         sum.add_number(factor(&mut random));
-        let Float { value, exponent } = sum.to_float();
+        let ScaledFloat { value, exponent } = sum.to_scaled_float();
         let exact = number(&sum);
         let found = Dyadic::exactly(value).scaled(exponent.into());
         let bound = exact.clone().abs().scaled(-53);
@@ -95,7 +95,7 @@ fn the_leading_digits_are_within_3_u() {
         assert!((&found - &exact).abs() <= bound, "{exact:?}");
         assert_eq!(exponent % 2, 0, "for square roots");
     }
-    let nothing = Integer::new(&mut []).to_float();
+    let nothing = Integer::new(&mut []).to_scaled_float();
     assert_eq!(nothing.value, 0.0);
 }
 
@@ -110,7 +110,7 @@ fn the_leading_106_bits_are_kept() {
         a.add_number(factor(&mut random));
         sum.add_times(&a, factor(&mut random));
         let unit = random.integer(-5000..=5000);
-        let (wide, exact) = (sum.to_wide(unit), number(&sum).scaled(unit.into()));
+        let (wide, exact) = (sum.to_scaled_pair(unit), number(&sum).scaled(unit.into()));
         assert_eq!((wide.is_zero(), wide.is_negative()), (exact.is_zero(), exact.is_negative()));
         if exact.is_zero() {
             continue;
@@ -123,7 +123,7 @@ fn the_leading_106_bits_are_kept() {
         assert!(!error.is_negative(), "{exact:?}");
         assert!(error < Dyadic::new(1, exact.magnitude() - 105), "{exact:?}");
     }
-    assert!(Integer::new(&mut []).to_wide(3).is_zero());
+    assert!(Integer::new(&mut []).to_scaled_pair(3).is_zero());
 }
 
 #[test]
@@ -138,12 +138,13 @@ fn numbers_are_integers_of_their_units() {
     ] {
         let factor = Shifted::new(number, unit);
         assert_eq!((factor.integer, factor.places), (integer, places), "{number} in 2^{unit}");
-        let Float { value, exponent } = factor.to_float();
+        let ScaledFloat { value, exponent } = factor.to_scaled_float();
         assert_eq!(value, f64::from(i32::try_from(integer).unwrap()));
         assert_eq!(exponent, 0);
     }
     let Shifted { integer, places } = Shifted::new(f64::MAX, -1074);
     assert_eq!((integer, places), ((1 << 53) - 1, 971 + 1074));
-    let Float { value, exponent } = Shifted { integer: -5, places: 77 }.negated().to_float();
+    let ScaledFloat { value, exponent } =
+        Shifted { integer: -5, places: 77 }.negated().to_scaled_float();
     assert_eq!((value, exponent), (5.0, 77));
 }

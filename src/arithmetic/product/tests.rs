@@ -7,7 +7,7 @@ fn integer(product: Product) -> BigUint {
     (BigUint::from(product.high) << 128) + BigUint::from(product.low)
 }
 
-fn number(wide: Wide) -> Dyadic {
+fn number(wide: ScaledPair) -> Dyadic {
     exactly(wide.scaled(-wide.exponent())).scaled(wide.exponent().into())
 }
 
@@ -66,7 +66,7 @@ fn what_is_rounded_is_cut_off_after_106_bits() {
         }
         let unit = random.integer(-5000..=5000);
         let exact = Dyadic::new(integer(product), unit.into());
-        let wide = product.to_wide(unit);
+        let wide = product.to_scaled_pair(unit);
         assert_eq!(wide.is_zero(), product == Product::ZERO);
         if wide.is_zero() {
             continue;
@@ -76,7 +76,7 @@ fn what_is_rounded_is_cut_off_after_106_bits() {
         assert!(!error.is_negative(), "{product:x?}");
         assert!(error < Dyadic::new(1, exact.magnitude() - 105), "{product:x?}");
     }
-    assert_eq!(number(Product { high: 1, low: 1 << 127 }.to_wide(-1)), Dyadic::new(3, 126));
+    assert_eq!(number(Product { high: 1, low: 1 << 127 }.to_scaled_pair(-1)), Dyadic::new(3, 126));
 }
 
 #[test]

@@ -1,5 +1,5 @@
 use super::*;
-use crate::testing::{Dyadic, Random, nearest};
+use crate::testing::{Dyadic, Float, Random};
 
 #[test]
 fn the_exponent_is_that_of_the_largest_power_of_two_below() {
@@ -19,7 +19,7 @@ fn the_exponent_is_that_of_the_largest_power_of_two_below() {
 fn check(x: f64, e: i32) {
     let exact = Dyadic::exactly(x).scaled(e.into());
     let scaled = scale(x, e);
-    assert_eq!(scaled, nearest(&exact, scaled), "{x:e} times 2^{e}");
+    assert_eq!(scaled, f64::nearest(&exact), "{x:e} times 2^{e}");
     assert_eq!(scaled.is_sign_negative(), x.is_sign_negative(), "{x:e} times 2^{e}");
 }
 

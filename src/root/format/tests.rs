@@ -1,19 +1,18 @@
 use std::cell::Cell;
 
 use super::*;
-use crate::testing::{Dyadic, Random, exactly, nearest};
+use crate::testing::{Dyadic, Float, Random, exactly};
 
 /// An `f32` guess for [`nearest`].
-#[expect(clippy::cast_possible_truncation, reason = "a guess")]
 fn nearest_f32(exact: &Dyadic) -> f64 {
-    nearest(exact, exact.approximately() as f32).into()
+    f32::nearest(exact).into()
 }
 
 /// The number of the format nearest to `exact`, ties to even.
 fn expected(format: Format, exact: &Dyadic) -> f64 {
     match format {
         Format::F32 => nearest_f32(exact),
-        Format::F64 => nearest(exact, exact.approximately()),
+        Format::F64 => f64::nearest(exact),
     }
 }
 
@@ -47,9 +46,9 @@ fn midpoint(format: Format, random: &mut Random) -> Dyadic {
 
 /// A pair near an exact number, to at least 100 bits.
 fn pair(exact: &Dyadic) -> Pair {
-    let hi = nearest(exact, exact.approximately());
+    let hi = f64::nearest(exact);
     let rest = exact - &Dyadic::exactly(hi);
-    Pair { hi, lo: if rest.is_zero() { 0.0 } else { nearest(&rest, rest.approximately()) } }
+    Pair { hi, lo: if rest.is_zero() { 0.0 } else { f64::nearest(&rest) } }
 }
 
 /// Rounds, and looks at whether the answer is right and at whether the question was needed.

@@ -1,13 +1,13 @@
 use super::*;
 use crate::algebraic::Quadratic;
 use crate::arithmetic::number::Triple;
+use crate::root::answer::Found;
 use crate::root::chord::Derivation;
-use crate::root::crossing::Found;
 use crate::root::format::Format;
 use crate::root::plain::{Both, both};
 use crate::root::tests::{ExactLine, difference, length, line, parts_of_tolerance};
 use crate::testing::{
-    Dyadic, ExactChord, Lie, Random, exactly, nearest, part_of_bound, search, setting,
+    Dyadic, ExactChord, Float, Lie, Random, exactly, part_of_bound, search, setting,
 };
 
 /// A line and a sphere, and the roots of the first step.
@@ -162,7 +162,7 @@ fn corrected_roots_keep_their_bound() {
             let corrected = correction.correct(roots[side]);
             let expected = &expected[side];
             if let Some(sure) = correction.correct_surely(roots[side], half_chord, size) {
-                let correct = nearest(expected, sure.t.hi);
+                let correct = f64::nearest(expected);
                 assert_eq!(sure.t.hi, correct, "{:?}", case.numbers);
             }
             if way * way <= CLEAR_OF_RESIDUAL * size {

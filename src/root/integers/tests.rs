@@ -1,9 +1,13 @@
+use core::cmp::Ordering;
+
 use super::*;
 use crate::arithmetic::scaling::scale;
+use crate::root::format::Midpoint;
+use crate::root::narrow::compare_root;
 use crate::root::tests::{assert_exact, line, single};
-use crate::testing::{Dyadic, ExactChord, Lie, Random, exactly, nearest, part_of_bound, setting};
+use crate::testing::{Dyadic, ExactChord, Float, Lie, Random, exactly, part_of_bound, setting};
 
-fn number(wide: Wide) -> Dyadic {
+fn number(wide: ScaledPair) -> Dyadic {
     exactly(wide.scaled(-wide.exponent())).scaled(wide.exponent().into())
 }
 
@@ -257,7 +261,7 @@ fn roots_in_integers_are_the_nearest() {
             }
             let Some((t, root)) = found.root(side) else { continue };
             roots += 1;
-            assert_eq!(t, nearest(expected, t), "{side:?} {numbers:?}");
+            assert_eq!(t, f64::nearest(expected), "{side:?} {numbers:?}");
             if numbers[9] == 0.0 {
                 continue;
             }
@@ -283,8 +287,7 @@ fn roots_in_integers_are_the_nearest_f32_too() {
         };
         for (side, expected) in [Side::Near, Side::Far].into_iter().zip(&roots) {
             let Some((root, _)) = found.root(side) else { continue };
-            #[expect(clippy::cast_possible_truncation, reason = "a guess")]
-            let nearest = nearest(expected, expected.approximately() as f32);
+            let nearest = f32::nearest(expected);
             assert_eq!(root, f64::from(nearest), "{side:?} {numbers:?}");
             count += 1;
         }

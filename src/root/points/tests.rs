@@ -25,7 +25,7 @@ fn found(format: Format, scale: f64, error: f64) -> Option<Found> {
     let x = Pair { hi: x().hi * scale, lo: x().lo * scale };
     let value = Triple { x, y: at(1.0), z: at(0.0) };
     let near = Near::within(value, error * scale);
-    let crossing = Crossing::new(near, near, line(scale).radius);
+    let crossing = Crossing::new(Side::Near, near, near, line(scale).radius);
     surely(line(scale), format, 1.0, crossing)
 }
 
@@ -67,7 +67,7 @@ fn next_to_zero_a_normal_is_zero_and_a_point_in_doubt() {
             Near::within(value, error)
         };
         let (point, offset) = (near(point), near(offset));
-        surely(along_z, Format::F64, 1.0, Crossing::new(point, offset, 5.0))
+        surely(along_z, Format::F64, 1.0, Crossing::new(Side::Near, point, offset, 5.0))
     };
     let error = 2_f64.powi(-90);
     // Below 5 2^-53 for sure.

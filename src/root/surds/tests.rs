@@ -1,13 +1,9 @@
 use super::*;
-use crate::root::tests::{ExactSurd, assert_exact, exact_root, line};
-use crate::root::{integers, pairs};
+use crate::root::tests::{assert_exact, exact_root, exact_surd, line};
+use crate::root::{integers, moved_origin};
 use crate::testing::{Dyadic, ExactChord, Random};
 
-#[expect(clippy::duplicate_mod, reason = "other unit tests take it, too")]
-#[path = "../../../tests/support/families.rs"]
-mod families;
-
-use families::{FAMILIES, Rng};
+use crate::testing::families::{FAMILIES, Rng};
 
 const ALL: Question = Question::Nearest(0.0..f64::INFINITY);
 const SIDES: [Side; 2] = [Side::Near, Side::Far];
@@ -168,7 +164,7 @@ fn every_careful_step_answers_as_this_one() {
         {
             let expected = bits(ask(line, format, &question));
             let in_pairs =
-                pairs::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
+                moved_origin::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
             let in_integers =
                 integers::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
             for (count, verdict) in counts.iter_mut().zip([in_pairs, in_integers]) {
@@ -295,14 +291,14 @@ fn numbers_next_to_powers_of_two_and_to_midpoints_are_rounded() {
             unit,
         };
         let product = &Dyadic::new(denominator, 0) * &Dyadic::new(sign * eighths, 0);
-        let exact = ExactSurd {
-            rational: &product - &Dyadic::new(root, 0),
-            along: Dyadic::new(coefficient, 0),
-            discriminant: Dyadic::new(square, 0),
-            denominator: Dyadic::new(denominator, (-unit).into()),
-        };
+        let exact = [
+            &(&product - &Dyadic::new(root, 0)),
+            &Dyadic::new(coefficient, 0),
+            &Dyadic::new(square, 0),
+            &Dyadic::new(denominator, (-unit).into()),
+        ];
         let found = surd.round(format, &mut scratch);
-        assert_eq!(found, exact.rounded(format), "{format:?} {exact:?}");
+        assert_eq!(found, exact_surd(format, exact), "{format:?} {exact:?}");
     }
 }
 

@@ -263,6 +263,30 @@ mod tests {
         }
     }
 
+    /// Spheres apart and those that no ray can hit are moved, too, and do not make it build anew.
+    #[test]
+    fn moves_spheres_of_each_kind() {
+        for apart in [0, 2] {
+            let mut rng = Rng::new(3);
+            let mut spheres = cloud::<glam::Vec3>(&mut rng);
+            for index in [7, 4000] {
+                spheres[index].radius = -1.0;
+            }
+            for sphere in &mut spheres[..apart] {
+                sphere.radius = 1e3;
+            }
+            let mut tree = Tree::new(&spheres);
+            assert_eq!((tree.apart.len(), tree.unreachable.len()), (apart, 2));
+            for sphere in &mut spheres {
+                sphere.center.y += 0.01;
+            }
+            assert!(tree.refit(&spheres));
+            for (index, sphere) in spheres.iter().enumerate() {
+                assert_eq!(tree.get(index), Some(*sphere), "{index}");
+            }
+        }
+    }
+
     #[test]
     fn keeps_a_tree_that_is_good_in_both_precisions() {
         keeps_a_tree_that_is_good::<glam::Vec3>();

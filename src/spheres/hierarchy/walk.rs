@@ -326,7 +326,7 @@ impl<V: Vector> Tree<V> {
         let mut nearest = None;
         self.walk(lanes, ray, start..end, |index, sphere, end| {
             let hit = sphere.intersect(ray, start..end)?;
-            self.is_nearer(ray, (index, &hit), nearest.as_ref()).then(|| {
+            self.is_nearer(ray, (index, hit.t), t_of(nearest)).then(|| {
                 nearest = Some((index, hit));
                 // Equal distances too: they may be those of a lower index.
                 next_above::<V>(hit.t)
@@ -336,7 +336,7 @@ impl<V: Vector> Tree<V> {
             let end = nearest.map_or(end, |(_, hit)| next_above::<V>(hit.t));
             if let Some((place, hit)) = self.apart.nearest_in_lanes(lanes, ray, start..end) {
                 let found = (*self.apart_indices.get(place)?, hit);
-                if self.is_nearer(ray, (found.0, &found.1), nearest.as_ref()) {
+                if self.is_nearer(ray, (found.0, found.1.t), t_of(nearest)) {
                     nearest = Some(found);
                 }
             }
@@ -373,7 +373,7 @@ impl<V: Vector> Tree<V> {
         for (index, &place) in self.places.iter().enumerate() {
             let hit = self.at_place(place).and_then(|sphere| sphere.intersect(ray, start..end));
             if let Some(hit) = hit {
-                if self.is_nearer(ray, (number(index), &hit), nearest.as_ref()) {
+                if self.is_nearer(ray, (number(index), hit.t), t_of(nearest)) {
                     end = next_above::<V>(hit.t);
                     nearest = Some((number(index), hit));
                 }
@@ -383,19 +383,25 @@ impl<V: Vector> Tree<V> {
         Some((index as usize, hit))
     }
 
-    /// Whether a hit comes before the nearest so far.
+    /// Whether a hit comes before the nearest so far, each given as its index and its t.
     #[inline(always)]
     fn is_nearer(
         &self,
         ray: &Ray<V>,
-        (index, hit): (u32, &Hit<V>),
-        nearest: Option<&(u32, Hit<V>)>,
+        hit: (u32, V::Scalar),
+        nearest: Option<(u32, V::Scalar)>,
     ) -> bool {
-        nearest.is_none_or(|&(other, nearest)| {
-            let spheres = || [index, other].map(|index| self.get(index as usize));
-            is_nearer(ray, (index, hit.t), (other, nearest.t), spheres)
+        nearest.is_none_or(|nearest| {
+            let spheres = || [hit.0, nearest.0].map(|index| self.get(index as usize));
+            is_nearer(ray, hit, nearest, spheres)
         })
     }
+}
+
+/// Where the nearest so far is: not a reference to it, which would keep it in memory.
+#[inline(always)]
+fn t_of<V: Vector>(nearest: Option<(u32, Hit<V>)>) -> Option<(u32, V::Scalar)> {
+    nearest.map(|(index, hit)| (index, hit.t))
 }
 
 /// Whether the filters can compute with a ray.

@@ -1,11 +1,11 @@
 use super::*;
 
-fn float(value: f64, exponent: i32) -> Float {
-    Float { value, exponent }
+fn float(value: f64, exponent: i32) -> ScaledFloat {
+    ScaledFloat { value, exponent }
 }
 
 /// In units of 2^`unit`, where that is a number.
-fn scaled(x: Float, unit: i32) -> f64 {
+fn scaled(x: ScaledFloat, unit: i32) -> f64 {
     scale(x.value, x.exponent - unit)
 }
 

@@ -2,17 +2,13 @@ use glam::DVec3;
 
 use super::*;
 use crate::geometric::ClosestApproach;
-use crate::root::crossing::{Question, Verdict};
+use crate::root::answer::{Question, Verdict};
 use crate::root::format::Format;
 use crate::root::tests::{assert_exact, line, parts_of_tolerance, single};
-use crate::root::{in_f64, pairs};
-use crate::testing::{Dyadic, ExactChord, Lie, Random, nearest, part_of_bound, search, setting};
+use crate::root::{double, moved_origin};
+use crate::testing::{Dyadic, ExactChord, Float, Lie, Random, part_of_bound, search, setting};
 
-#[expect(clippy::duplicate_mod, reason = "other unit tests take it, too")]
-#[path = "../../../tests/support/families.rs"]
-mod families;
-
-use families::{FAMILIES, Rng};
+use crate::testing::families::{FAMILIES, Rng};
 
 /// How far a case has to go for its nearest root.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -28,7 +24,7 @@ pub(in crate::root) enum Effort {
 /// Which of the steps that are the same for both precisions decides.
 pub(in crate::root) fn careful_effort(line: &Line, format: Format, range: Range<f64>) -> Effort {
     let question = Question::Nearest(range);
-    let verdict = pairs::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
+    let verdict = moved_origin::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
     if matches!(verdict, Verdict::Doubt) { Effort::Integers } else { Effort::Pairs }
 }
 
@@ -84,7 +80,7 @@ fn how_often_the_careful_paths_run() {
         let mut rng = Rng::new(1);
         print(family.name, "f64", &mut || {
             let (ray, sphere) = (family.f64)(&mut rng);
-            in_f64::tests::effort(&sphere, &ray)
+            double::tests::effort(&sphere, &ray)
         });
     }
 }
@@ -96,9 +92,8 @@ fn ray_and_sphere(numbers: [f64; 10]) -> (Ray, Sphere) {
     (ray, Sphere::new(line.center.as_vec3(), line.radius as f32))
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "a guess")]
 fn rounded(exact: &Dyadic) -> f32 {
-    nearest(exact, exact.approximately() as f32)
+    f32::nearest(exact)
 }
 
 const LIES: [Lie; 14] = [

@@ -50,20 +50,21 @@
 
 use core::cmp::Ordering;
 
-use super::bounded::Bounded;
+use super::answer::{Crossings, Found, Side, Verdict};
+use super::bounded_chord::Bounded;
 use super::chord::Chord;
-use super::crossing::{Crossings, Found, Line, Side, Verdict};
 use super::format::{Format, Midpoint};
-use super::integers;
+use super::line::Line;
+use super::narrow;
 use super::points::{self, Crossing, Near};
-use super::scaled::Scaled;
-use super::surface::{self, power_in_pairs};
+use super::power::{self, power_in_pairs};
+use super::scaled_line::Scaled;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
     LEAST_PAIR, Pair, U, V, compensated_dot, two_difference, two_product, two_sum,
 };
+use crate::arithmetic::scaled_pair::ScaledPair;
 use crate::arithmetic::scaling::scale;
-use crate::arithmetic::wide::Wide;
 use crate::float::sqrt;
 
 #[cfg(test)]
@@ -171,6 +172,7 @@ pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
 
 /// A root, and where the line is there.
 pub(super) struct Corrected {
+    side: Side,
     /// In scaled units.
     t: Pair,
     error: f64,
@@ -203,7 +205,7 @@ impl InPairs<'_> {
         let error = residual_error * per_half_chord + correction.abs() * of_correction;
         let t = two_sum(start, way);
         let t = two_sum(t.hi, t.lo + correction);
-        Some(Corrected { t, error, w, correction })
+        Some(Corrected { side, t, error, w, correction })
     }
 
     /// The error of where the line is at a root.
@@ -215,9 +217,10 @@ impl InPairs<'_> {
 
     /// How the root on that side compares with a number midway between its neighbors, in scaled units.
     ///
-    /// A number within 3 times the error is nearer to this root than to the other: they are 2 s / a apart. By the moved origin
-    /// s² > 192 v a r² + 1280 u v a r √m, so that what the power errs by makes less than s / 8 a, and the correction, at most s / 64 a,
-    /// brings half of that at most; of a plain discriminant, both are less; and 2 v |t| is next to nothing beside s / a > 2⁻⁷² |t|.
+    /// A number within 3 times the error is nearer to this root than to the other: they are 2 s / a apart. By the moved origin,
+    /// s² is above 192 v a r² + 1280 u v a r √m, so that what the power errs by makes less than s / 8 a, and the correction, at
+    /// most s / 64 a, brings half of that at most; of a plain discriminant, both are less; and 2 v |t| is next to nothing beside
+    /// s / a, which is above 2⁻⁷² |t|.
     #[inline(always)]
     fn compare(&self, side: Side, root: &Corrected, number: Midpoint) -> Option<Ordering> {
         let above = root.above(number);
@@ -228,7 +231,7 @@ impl InPairs<'_> {
         let number = Midpoint { exponent, ..number };
         let certain = if self.scaled.is_scaled() { None } else { quadratic_at(self.line, number) };
         match (certain, side) {
-            (None, _) => integers::compare_root(self.line, side, number),
+            (None, _) => narrow::compare_root(self.line, side, number),
             // Nearer to this root than to the other, outside is before the near one and behind the far one.
             (Some(quadratic), Side::Near) => Some(quadratic),
             (Some(quadratic), Side::Far) => Some(quadratic.reverse()),
@@ -256,7 +259,7 @@ fn quadratic_at(line: &Line, number: Midpoint) -> Option<Ordering> {
     });
     let dropped = exact.x.1 + exact.y.1 + exact.z.1;
     let w = Triple { x: exact.x.0, y: exact.y.0, z: exact.z.0 };
-    let (power, error) = surface::closest_power(w, line.radius);
+    let (power, error) = power::closest_power(w, line.radius);
     // 0 only where all is exact: what is dropped counts, and its products may underflow.
     let size = w.x.hi.abs() + w.y.hi.abs() + w.z.hi.abs();
     let of_dropped = 3.0 * (size + dropped) * dropped + f64::MIN_POSITIVE;
@@ -318,6 +321,7 @@ impl Corrected {
         });
         let size = center.x.abs() + center.y.abs() + center.z.abs() + 2.0 * radius;
         let crossing = Crossing {
+            side: self.side,
             point: Near::within(sum, error + SUM_ERROR * size),
             units: Triple { x: unit, y: unit, z: unit },
             offset: Near::within(offset, error + SUM_ERROR * radius),
@@ -345,16 +349,22 @@ impl Corrected {
         let relative_error = self.error / self.t.hi.abs() + PAIR_ERROR;
         let root = (self.t, scaled.exponent(), relative_error);
         let offset = Near::within(self.offset(scaled), error + SUM_ERROR * scaled.radius);
-        let crossing = Crossing::from_root(line, root, offset, scaled.radius);
+        let crossing = Crossing::from_root(line, self.side, root, offset, scaled.radius);
         points::surely(*line, format, t, crossing)
     }
 }
 
-/// The hit at a root that is known to a part of itself of 2⁻⁹⁴, if its point is certain; `t` is that root rounded.
+/// The hit at a root that is known to a part of itself of at most 2⁻⁹⁴, if its point is certain; `t` is that root rounded.
 ///
 /// So the point is off by 4,096 v |t d|. The product of the root's low part with d is rounded by v |t d|, its sum with the low
 /// part of w by 2 v |w|, and w by v |w| as said above, where |w| ≤ |t d| + |o|: in all by at most 4,100 v (|t d| + |o|).
-pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Wide) -> Option<Found> {
+pub(super) fn hit_at(
+    line: &Line,
+    format: Format,
+    side: Side,
+    t: f64,
+    (root, relative_error): (ScaledPair, f64),
+) -> Option<Found> {
     /// Of the way, |o| and r: 2⁻⁹⁰.
     const ERROR: f64 = 65536.0 * V;
     let scaled = Scaled::new(line)?;
@@ -364,7 +374,7 @@ pub(super) fn hit_at(line: &Line, format: Format, t: f64, root: Wide) -> Option<
     let root = root.scaled(-scaled.exponent());
     let w = offset(scaled.o, scaled.d, root.hi);
     let reach = sqrt(o.dot(o)) + scaled.radius + root.hi.abs() * length;
-    let error = integers::ROOT_ERROR * root.hi.abs();
-    let root = Corrected { t: root, error, w, correction: root.lo };
+    let error = relative_error * root.hi.abs();
+    let root = Corrected { side, t: root, error, w, correction: root.lo };
     root.hit(line, format, &scaled, t, ERROR * reach)
 }

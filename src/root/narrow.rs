@@ -1,20 +1,22 @@
-//! Coordinates as integers of 64 bits.
+//! Coordinates as integers of 64 bits, where exact products have room in 256 bits, and how a root compares with a number there.
 
 use core::cmp::Ordering;
 
+use super::answer::Side;
+use super::format::Midpoint;
+use super::line::Line;
 use crate::arithmetic::integer::Shifted;
+use crate::arithmetic::pair::U;
 use crate::arithmetic::product::{Product, sign_of_sum};
-use crate::arithmetic::scaling::integer_and_exponent;
-use crate::arithmetic::wide::Wide;
-use crate::root::crossing::Line;
-use crate::root::format::Midpoint;
+use crate::arithmetic::scaled_pair::ScaledPair;
+use crate::arithmetic::scaling::{integer_and_exponent, scale};
 
 /// The bits of a length or of a coordinate of the direction: 2⁶¹ and less, so that o, the sum of two, is at most 2⁶², a sum of
 /// three products at most 3 2¹²⁴, and the discriminant at most 2²⁵².
 const BITS: i32 = 61;
 
 /// A line and a sphere whose lengths are integers in units of one power of two, and whose directions in units of another.
-pub(in crate::root) struct Narrow {
+pub(super) struct Narrow {
     o: [i64; 3],
     d: [i64; 3],
     radius: i64,
@@ -76,19 +78,19 @@ impl Narrow {
     }
 
     /// d·d.
-    pub(super) fn a(&self) -> Wide {
-        Wide::from_signed(dot(self.d, self.d), 2 * self.direction_exponent)
+    pub(super) fn a(&self) -> ScaledPair {
+        ScaledPair::from_signed(dot(self.d, self.d), 2 * self.direction_exponent)
     }
 
     /// d·o.
-    pub(super) fn h(&self) -> Wide {
-        Wide::from_signed(dot(self.o, self.d), self.length_exponent + self.direction_exponent)
+    pub(super) fn h(&self) -> ScaledPair {
+        ScaledPair::from_signed(dot(self.o, self.d), self.length_exponent + self.direction_exponent)
     }
 
     /// o·o - r².
-    pub(super) fn power(&self) -> Wide {
+    pub(super) fn power(&self) -> ScaledPair {
         let power = dot(self.o, self.o) - product(self.radius, self.radius);
-        Wide::from_signed(power, 2 * self.length_exponent)
+        ScaledPair::from_signed(power, 2 * self.length_exponent)
     }
 
     fn integer_moment(&self) -> [i128; 3] {
@@ -97,13 +99,13 @@ impl Narrow {
     }
 
     /// o × d.
-    pub(super) fn moment(&self) -> [Wide; 3] {
+    pub(super) fn moment(&self) -> [ScaledPair; 3] {
         let unit = self.length_exponent + self.direction_exponent;
-        self.integer_moment().map(|coordinate| Wide::from_signed(coordinate, unit))
+        self.integer_moment().map(|coordinate| ScaledPair::from_signed(coordinate, unit))
     }
 
     /// r² (d·d) - |o × d|².
-    pub(super) fn discriminant(&self) -> Wide {
+    pub(super) fn discriminant(&self) -> ScaledPair {
         let a = dot(self.d, self.d);
         let radius_squared = product(self.radius, self.radius);
         let a_radius_squared = Product::new(a.unsigned_abs(), radius_squared.unsigned_abs());
@@ -111,9 +113,9 @@ impl Narrow {
         let moment_squared = x.plus(y).plus(z);
         let unit = 2 * (self.length_exponent + self.direction_exponent);
         if a_radius_squared < moment_squared {
-            -moment_squared.minus(a_radius_squared).to_wide(unit)
+            -moment_squared.minus(a_radius_squared).to_scaled_pair(unit)
         } else {
-            a_radius_squared.minus(moment_squared).to_wide(unit)
+            a_radius_squared.minus(moment_squared).to_scaled_pair(unit)
         }
     }
 
@@ -153,4 +155,42 @@ impl Narrow {
         });
         Some(sign_of_sum(terms))
     }
+
+    /// How the root on that side compares with a number midway between two floats. `None` where 256 bits have no room for that.
+    pub(super) fn compare_root(
+        &self,
+        line: &Line,
+        side: Side,
+        number: Midpoint,
+    ) -> Option<Ordering> {
+        let quadratic = self.quadratic_at(number)?;
+        if quadratic.is_lt() {
+            return Some(side.compared(quadratic, Ordering::Equal));
+        }
+        let ahead = plainly_ahead(line, number).or_else(|| self.ahead_of(number))?;
+        Some(side.compared(quadratic, ahead))
+    }
+}
+
+/// The sign of what is from a number to the closest approach, h - a m, where that is certain in plain `f64`.
+fn plainly_ahead(line: &Line, number: Midpoint) -> Option<Ordering> {
+    /// Of the products' absolute values: o and m are rounded once, the products twice, and sums three times.
+    const ERROR: f64 = 8.0 * U;
+    /// Above what underflows.
+    const LEAST: f64 = f64::MIN_POSITIVE / U;
+    #[expect(clippy::cast_precision_loss, reason = "it is rounded once")]
+    let m = scale(number.integer as f64, number.exponent);
+    let (o, d) = (line.center - line.origin, line.direction);
+    let (h, am) = (d.dot(o), d.dot(d * m));
+    let (ahead, size) = (h - am, d.abs().dot(o.abs()) + am.abs());
+    let is_certain =
+        m.is_normal() && ahead.abs() > ERROR * size && ahead.abs() > LEAST && size.is_finite();
+    if is_certain { ahead.partial_cmp(&0.0) } else { None }
+}
+
+/// How the root on that side compares with a number midway between two floats. `None` where only integers of many digits tell.
+#[cold]
+#[inline(never)]
+pub(super) fn compare_root(line: &Line, side: Side, number: Midpoint) -> Option<Ordering> {
+    Narrow::new(line)?.compare_root(line, side, number)
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::crossing::Line;
+use super::line::Line;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::Pair;
 use crate::arithmetic::scaling::{exponent, scale, scale_subnormal};

@@ -1,78 +1,9 @@
-//! Where a line crosses a sphere: the choice of the root that a ray hits, and the point and the normal there.
+//! What is asked about the crossings of a line, the choice of the root that answers it, and the answer.
 
+use core::cmp::Ordering;
 use core::ops::Range;
 
 use glam::DVec3;
-
-use super::chord::{Chord, Derivation};
-use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{Pair, two_difference};
-use crate::{Ray, Sphere, Vector};
-
-/// A line and a sphere as the caller gave them.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Line {
-    pub(crate) origin: DVec3,
-    pub(crate) direction: DVec3,
-    pub(crate) center: DVec3,
-    pub(crate) radius: f64,
-}
-
-impl Line {
-    #[inline(always)]
-    pub(crate) fn new<V: Vector>(sphere: &Sphere<V>, ray: &Ray<V>) -> Self {
-        Self {
-            origin: ray.origin.to_f64(),
-            direction: ray.direction.to_f64(),
-            center: sphere.center.to_f64(),
-            radius: sphere.radius.into(),
-        }
-    }
-
-    /// c - p, exactly, unless it overflows on the way.
-    #[inline(always)]
-    pub(crate) fn o(&self) -> Triple<Pair> {
-        Triple::from(self.center).zip(Triple::from(self.origin), two_difference)
-    }
-
-    /// Whether a ray can meet the sphere at all: no NaN, no infinity, no zero direction, no negative radius.
-    pub(crate) fn is_valid(&self) -> bool {
-        self.origin.is_finite()
-            && self.direction.is_finite()
-            && self.center.is_finite()
-            && self.radius.is_finite()
-            && self.direction != DVec3::ZERO
-            && self.radius >= 0.0
-    }
-}
-
-/// A line and a sphere as the plain steps see them.
-pub(crate) struct Setting {
-    pub(crate) line: Line,
-    /// From the ray's origin to the center, rounded.
-    pub(crate) o: DVec3,
-    /// Negative where the radius is.
-    pub(crate) radius_squared: f64,
-}
-
-impl Setting {
-    #[inline(always)]
-    pub(crate) fn new<V: Vector>(sphere: &Sphere<V>, ray: &Ray<V>) -> Self {
-        Self::of(Line::new(sphere, ray))
-    }
-
-    #[inline(always)]
-    pub(crate) fn of(line: Line) -> Self {
-        let o = line.center - line.origin;
-        Self { line, o, radius_squared: line.radius * line.radius.abs() }
-    }
-
-    /// The chord in plain `f64`.
-    #[inline(always)]
-    pub(crate) fn chord<D: Derivation>(&self) -> Chord<f64> {
-        D::chord(Triple::from(self.o), Triple::from(self.line.direction), self.radius_squared)
-    }
-}
 
 /// One of the two roots.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,6 +12,23 @@ pub(crate) enum Side {
     Near,
     /// Where it leaves.
     Far,
+}
+
+impl Side {
+    /// How the root compares with a number, by the signs of the quadratic there and of what is from there to the closest
+    /// approach, which does not count within the chord.
+    #[inline(always)]
+    pub(crate) fn compared(self, quadratic: Ordering, ahead: Ordering) -> Ordering {
+        match (self, quadratic) {
+            // Outside the chord, the number lies before both roots or behind both.
+            (_, Ordering::Greater) => ahead,
+            // At a root: at the near one where the closest approach is still ahead, at the far one where it is past.
+            (Self::Near, Ordering::Equal) if ahead.is_ge() => Ordering::Equal,
+            (Self::Far, Ordering::Equal) if ahead.is_le() => Ordering::Equal,
+            (Self::Near, _) => Ordering::Less,
+            (Self::Far, _) => Ordering::Greater,
+        }
+    }
 }
 
 /// What a step says.

@@ -13,12 +13,12 @@ mod tests;
 ///
 /// The value is zero, or so far from the ends of the range that no operation of a few leaves it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Float {
+pub(crate) struct ScaledFloat {
     pub(crate) value: f64,
     pub(crate) exponent: i32,
 }
 
-impl Float {
+impl ScaledFloat {
     /// The square root of a number that is not negative, and whose exponent is even.
     pub(crate) fn sqrt(self) -> Self {
         Self { value: sqrt(self.value), exponent: self.exponent / 2 }
@@ -41,7 +41,7 @@ impl Float {
     }
 }
 
-impl Neg for Float {
+impl Neg for ScaledFloat {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -49,7 +49,7 @@ impl Neg for Float {
     }
 }
 
-impl Add for Float {
+impl Add for ScaledFloat {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -64,7 +64,7 @@ impl Add for Float {
     }
 }
 
-impl Sub for Float {
+impl Sub for ScaledFloat {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -72,7 +72,7 @@ impl Sub for Float {
     }
 }
 
-impl Mul for Float {
+impl Mul for ScaledFloat {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
@@ -80,7 +80,7 @@ impl Mul for Float {
     }
 }
 
-impl Div for Float {
+impl Div for ScaledFloat {
     type Output = Self;
 
     fn div(self, other: Self) -> Self {

@@ -9,7 +9,6 @@ use super::scaling::scale;
 mod tests;
 
 /// The first 106 of the 128 bits of an integer with its highest bit set, as a number in 1..2.
-#[cfg_attr(target_os = "none", inline(never))]
 fn leading_pair(integer: u128) -> Pair {
     const HALF: u128 = (1 << 53) - 1;
     #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
@@ -19,12 +18,12 @@ fn leading_pair(integer: u128) -> Pair {
 
 /// A number of any exponent: `value` 2^`exponent`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Wide {
+pub(crate) struct ScaledPair {
     value: Pair,
     exponent: i32,
 }
 
-impl Wide {
+impl ScaledPair {
     pub(crate) const ZERO: Self = Self { value: Pair { hi: 0.0, lo: 0.0 }, exponent: 0 };
 
     /// `magnitude` 2^`unit`, rounded to 106 bits.
@@ -78,7 +77,7 @@ impl Wide {
     }
 }
 
-impl Neg for Wide {
+impl Neg for ScaledPair {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -86,7 +85,7 @@ impl Neg for Wide {
     }
 }
 
-impl Add for Wide {
+impl Add for ScaledPair {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -102,7 +101,7 @@ impl Add for Wide {
     }
 }
 
-impl Div for Wide {
+impl Div for ScaledPair {
     type Output = Self;
 
     fn div(self, other: Self) -> Self {

@@ -1,8 +1,8 @@
 use super::*;
 use crate::arithmetic::pair::{QUOTIENT_ERROR, ROOT_ERROR, SUM_ERROR};
-use crate::testing::{Dyadic, Random, exactly, nearest, part_of_bound};
+use crate::testing::{Dyadic, Float, Random, exactly, part_of_bound};
 
-fn number(wide: Wide) -> Dyadic {
+fn number(wide: ScaledPair) -> Dyadic {
     exactly(wide.value).scaled(wide.exponent.into())
 }
 
@@ -18,7 +18,7 @@ fn integers_keep_106_bits() {
         };
         let unit = random.integer(-5000..=5000);
         let exact = Dyadic::new(bits, unit.into());
-        let wide = Wide::from_integer(bits, unit);
+        let wide = ScaledPair::from_integer(bits, unit);
         assert_eq!(wide.is_zero(), bits == 0);
         assert!(!wide.is_negative());
         if bits == 0 {
@@ -33,15 +33,15 @@ fn integers_keep_106_bits() {
             assert_eq!(number(wide), exact, "{bits:#x}");
         }
     }
-    assert_eq!(number(Wide::from_integer(1, -7)), Dyadic::new(1, -7));
+    assert_eq!(number(ScaledPair::from_integer(1, -7)), Dyadic::new(1, -7));
 }
 
 /// A number of either sign and any exponent.
-fn random_wide(random: &mut Random) -> Wide {
+fn random_wide(random: &mut Random) -> ScaledPair {
     let bits = u128::from(random.bits()) << 64 | u128::from(random.bits());
     let integer = i128::from_ne_bytes((bits >> random.below(128)).to_ne_bytes());
     let integer = if random.below(2) == 0 { integer } else { -integer };
-    let wide = Wide::from_signed(integer, random.integer(-4000..=4000));
+    let wide = ScaledPair::from_signed(integer, random.integer(-4000..=4000));
     assert_eq!((wide.is_negative(), wide.is_zero()), (integer < 0, integer == 0));
     wide
 }
@@ -59,7 +59,7 @@ fn wide_numbers_keep_the_bounds_of_pairs() {
             b.exponent = a.exponent + random.integer(-120..=120);
         }
         if random.below(4) == 0 {
-            b = Wide { value: Pair { lo: b.value.lo, ..-a.value }, ..a };
+            b = ScaledPair { value: Pair { lo: b.value.lo, ..-a.value }, ..a };
         }
         let (x, y) = (number(a), number(b));
         assert_eq!(number(-a), -&x);
@@ -84,8 +84,8 @@ fn wide_numbers_keep_the_bounds_of_pairs() {
 
 #[test]
 fn wide_zero_is_zero() {
-    let one = Wide::from_integer(1, 0);
-    let zero = Wide::from_signed(0, 7);
+    let one = ScaledPair::from_integer(1, 0);
+    let zero = ScaledPair::from_signed(0, 7);
     assert!(zero.is_zero() && !zero.is_negative() && zero.sqrt().is_zero() && (-zero).is_zero());
     assert!((zero / one).is_zero() && (one + -one).is_zero());
     assert_eq!(number(one + zero), Dyadic::new(1, 0));
@@ -104,7 +104,7 @@ fn wide_numbers_round_to_f64_once_where_normal() {
         wide.exponent = random.integer(-1100..=1030);
         let (rounded, exact) = (wide.to_f64(), number(wide));
         if rounded.is_normal() || rounded.is_infinite() {
-            assert_eq!(rounded, nearest(&exact, rounded), "{wide:?}");
+            assert_eq!(rounded, f64::nearest(&exact), "{wide:?}");
         } else {
             // Rounded twice: by half a unit in the last place, and before that by very little.
             let error = (&Dyadic::exactly(rounded) - &exact).abs();

@@ -1,8 +1,8 @@
 use super::*;
 use crate::geometric::ClosestApproach;
-use crate::root::in_f32::tests::{Effort, careful_effort};
+use crate::root::single::tests::{Effort, careful_effort};
 use crate::root::tests::{assert_exact, line};
-use crate::testing::{ExactChord, Lie, Random, nearest, setting};
+use crate::testing::{ExactChord, Float, Lie, Random, setting};
 
 /// How far a case has to go for its nearest root.
 pub(in crate::root) fn effort(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> Effort {
@@ -70,9 +70,7 @@ fn answers_are_the_exact_ones_rounded() {
         let numbers = setting(&mut random, lie);
         let (ray, sphere) = ray_and_sphere(numbers);
         let exact = ExactChord::new(numbers).roots();
-        let roots = exact.map(|roots| {
-            [0, 1].map(|side: usize| nearest(&roots[side], roots[side].approximately()))
-        });
+        let roots = exact.map(|roots| [0, 1].map(|side: usize| f64::nearest(&roots[side])));
         assert_eq!(DVec3::roots::<Quadratic>(&sphere, &ray), roots, "{numbers:?}");
         assert_eq!(DVec3::roots::<ClosestApproach>(&sphere, &ray), roots, "{numbers:?}");
         let ahead = roots.into_iter().flatten().filter(|t| *t > 0.0).collect::<Vec<_>>();

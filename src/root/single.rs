@@ -4,21 +4,23 @@ use core::ops::Range;
 
 use glam::{DVec3, Vec3};
 
-use super::bounded::Bounded;
+use super::answer::{Found, Side, Verdict};
+use super::bounded_chord::Bounded;
 use super::chord::{Chord, Derivation};
-use super::crossing::{Found, Line, Setting, Side, Verdict};
 use super::format::Format;
 use super::halves;
+use super::line::{Line, Setting};
 use super::plain::{self, Both, Nearest};
 use super::points::{self, Crossing, Near};
 use super::precision::Precision;
-use super::{both_carefully, exit_carefully, integers, nearest_carefully, root_carefully, surface};
+use super::{both_carefully, exit_carefully, narrow, nearest_carefully, power, root_carefully};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{Pair, U};
 use crate::arithmetic::rounding::rounds_safely;
-use crate::float::{HAS_F64, sqrt};
+use crate::float::sqrt;
+use crate::target::{HAS_F64, once_if};
 use crate::{Hit, Ray, Sphere};
 
 #[cfg(test)]
@@ -83,11 +85,11 @@ impl Setting {
     }
 
     /// The power where the plain one is too small to be certain.
-    #[cfg_attr(not(any(target_os = "none", target_family = "wasm")), inline(always))]
-    #[cfg_attr(any(target_os = "none", target_family = "wasm"), inline(never))]
+    #[inline(always)]
     fn fine_power(&self, chord: &Chord<f64>) -> f64 {
         let (square, other) = (chord.distance_squared, self.radius_squared);
-        halves::power(self.line, self.o, if square > other { square } else { other })
+        let larger = if square > other { square } else { other };
+        once_if(Format::F32.has_few_steps(), || halves::power(self.line, self.o, larger))
     }
 
     /// The nearest root ahead by the plain step; asked a second time, with a finer power.
@@ -111,7 +113,7 @@ fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
     let rounded = if Format::F32.has_few_steps() {
         None
     } else {
-        let compare = |midpoint| integers::compare_root(line, side, midpoint);
+        let compare = |midpoint| narrow::compare_root(line, side, midpoint);
         Format::F32.round(t.into(), plain::ROOT_ERROR / CLEAR, compare)
     };
     // Only the root is asked for, so that the point is the plain step's, with many steps and with few.
@@ -133,7 +135,7 @@ fn from_the_surface(line: &Line, chord: Chord<f64>, range: Range<f32>) -> Verdic
     {
         return Verdict::Doubt;
     }
-    let (power, error) = surface::closest_power(line.o(), line.radius);
+    let (power, error) = power::closest_power(line.o(), line.radius);
     if power.hi != 0.0 || error != 0.0 {
         return Verdict::Doubt;
     }
@@ -152,7 +154,7 @@ fn from_the_surface(line: &Line, chord: Chord<f64>, range: Range<f32>) -> Verdic
     let near = |value: DVec3| Near::within(Triple::from(value).map(Pair::from), error);
     let step = line.direction * t;
     let (point, offset) = (near(line.origin + step), near(step - (line.center - line.origin)));
-    let crossing = Crossing::new(point, offset, line.radius);
+    let crossing = Crossing::new(Side::Far, point, offset, line.radius);
     points::surely(*line, Format::F32, rounded.into(), crossing)
         .map_or(Verdict::Doubt, Verdict::Hit)
 }

@@ -4,13 +4,14 @@ use core::ops::Range;
 
 use glam::DVec3;
 
+use super::answer::{Found, Side};
 use super::chord::{Chord, Derivation};
-use super::crossing::{Found, Line, Setting, Side};
 use super::format::Format;
 use super::halves::{self, Correction};
+use super::line::{Line, Setting};
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully, exit_carefully, integers, nearest_carefully, surface};
+use super::{both_carefully, exit_carefully, narrow, near_surface, nearest_carefully, power};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::pair::LEAST_PAIR;
 use crate::float::sqrt;
@@ -77,11 +78,11 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
     let chord = setting.safe_chord::<Quadratic>()?;
     let half_chord = sqrt(chord.discriminant);
     let larger = chord.distance_squared.max(radius_squared);
-    if !surface::is_close(&chord, half_chord, larger) {
+    if !near_surface::is_close(&chord, half_chord, larger) {
         return None;
     }
     let o = line.o();
-    let power = surface::power(o, line.radius);
+    let power = power::accurate_power(o, line.radius);
     // As certain as rounding needs, too.
     if power.1 > f64::EPSILON / 1024.0 * power.0.hi.abs() {
         return None;
@@ -92,15 +93,15 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
         return Some(None);
     }
     if is_outside || is_behind {
-        let root = surface::small_root(o, line.direction.into(), &chord, half_chord, power);
+        let root = near_surface::small_root(o, line.direction.into(), &chord, half_chord, power);
         if root.0.hi.abs() < LEAST_PAIR {
             return None;
         }
         let side = if is_outside { Side::Near } else { Side::Far };
         let t = Format::F64
-            .round(root.0, root.1, |midpoint| integers::compare_root(&{ line }, side, midpoint))?;
+            .round(root.0, root.1, |midpoint| narrow::compare_root(&{ line }, side, midpoint))?;
         if t > 0.0 && range.contains(&t) {
-            return surface::hit(line, o, root, t).map(Some);
+            return near_surface::hit(line, o, side, root, t).map(Some);
         }
         if is_behind || t >= range.start {
             return Some(None);
