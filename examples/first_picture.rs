@@ -35,7 +35,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Returns the color that is seen along the ray: the components of the normal as red, green and blue, darker in shadow; or the sky.
+/// Returns the color that is seen along the ray: the components of the normal as red, green and blue, darker in shadow; or the
+/// sky.
 fn color(scene: &[Sphere], ray: &Ray) -> [u8; 3] {
     let lamp = vec3(6.0, 8.0, 4.0);
     let color = match nearest(scene, ray, 0.0..f32::INFINITY) {

@@ -9,7 +9,8 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector, rejection};
 
 /// A sphere whose roots are found by the quadratic formula: the algebraic derivation.
 ///
-/// A point x is on the sphere with center c and radius r if `(x - c)·(x - c) = r²`, and on the ray with origin p and direction d if
+/// A point x is on the sphere with center c and radius r if `(x - c)·(x - c) = r²`, and on the ray with origin p and direction d
+/// if
 /// `x = p + t d`. Together, with `o = c - p`,
 ///
 /// ```text

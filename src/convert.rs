@@ -78,8 +78,8 @@ impl Ray<DVec3> {
     /// finite, or whose direction becomes zero, hits nothing.
     ///
     /// The rounded ray is another ray. One that [`Hit::spawn`] created starts closer to the surface that it leaves than two
-    /// neighboring `f32` are apart: rounded, about half of such rays start on the other side and hit that surface. So do not ask a
-    /// collection in `f32` with rays from hits in `f64`. `Spheres` and `SphereBvh` are there in `f64`, too.
+    /// neighboring `f32` are apart: rounded, about half of such rays start on the other side and hit that surface. So do not ask
+    /// a collection in `f32` with rays from hits in `f64`. `Spheres` and `SphereBvh` are there in `f64`, too.
     ///
     /// ```
     /// use eyeray::Ray;
@@ -101,8 +101,8 @@ impl Ray<DVec3> {
 impl Sphere<DVec3> {
     /// Rounds the sphere to `f32`: each coordinate of the center and the radius to the nearest, ties to even.
     ///
-    /// A number beyond the largest `f32` becomes infinite, and no ray hits the sphere; a radius below half the smallest becomes zero.
-    /// In general, neither of the two spheres contains the other.
+    /// A number beyond the largest `f32` becomes infinite, and no ray hits the sphere; a radius below half the smallest becomes
+    /// zero. In general, neither of the two spheres contains the other.
     ///
     /// ```
     /// use eyeray::Sphere;
@@ -121,8 +121,8 @@ impl Sphere<DVec3> {
 impl ViewRect<f64> {
     /// Rounds the rectangle to `f32`: each side to the nearest, ties to even.
     ///
-    /// A side beyond the largest `f32` becomes infinite, and two sides that round to the same `f32` become equal: a camera accepts
-    /// neither.
+    /// A side beyond the largest `f32` becomes infinite, and two sides that round to the same `f32` become equal: a camera
+    /// accepts neither.
     ///
     /// ```
     /// use eyeray::ViewRect;

@@ -9,8 +9,8 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector, rejection};
 
 /// A sphere whose roots are found by the closest approach and the half-chord: the geometric derivation.
 ///
-/// The line is closest to the center c at `t_m`, at a distance of `l_m`. If `l_m` is at most the radius r, the line intersects the
-/// sphere half a chord before and half a chord after this point, at `t_m - Δt` and `t_m + Δt`.
+/// The line is closest to the center c at `t_m`, at a distance of `l_m`. If `l_m` is at most the radius r, the line intersects
+/// the sphere half a chord before and half a chord after this point, at `t_m - Δt` and `t_m + Δt`.
 ///
 #[doc = include_str!("diagrams/closest_approach.svg")]
 ///
@@ -23,7 +23,8 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector, rejection};
 /// Δt   = √((r² - l_m²) / d·d) = √(r² (d·d) - |o × d|²) / d·d
 /// ```
 ///
-/// In the lecture (see below) the sphere is the unit sphere at the origin and the direction is a unit vector, so that `t_m = -p·d`,
+/// In the lecture (see below) the sphere is the unit sphere at the origin and the direction is a unit vector, so that `t_m =
+/// -p·d`,
 /// `l_m² = p·p - (p·d)²` and `Δt = √(1 - l_m²)`.
 ///
 /// The form with the cross product does not subtract two large squares, and so loses little of `l_m` even where the sphere

@@ -52,10 +52,10 @@ impl<V: Vector> Hit<V> {
     ///
     /// - On the plane y = h, set the point's y to h: it is on the plane, and `error` is 0. On any other plane, the distance of
     ///   `point` from it, computed in `f64`, is an `error`.
-    /// - An instance, a shape with a transform, asks the shape with the ray brought into the shape's coordinates, the direction not
-    ///   normalized: then t is the same. Transform the point and the normal back, normalize the normal, and take
-    ///   [`clearance`](Self::clearance) times the largest scale of the transform for `error`, and some ulp of the largest coordinate
-    ///   of the transform's translation and of the point more.
+    /// - An instance, a shape with a transform, asks the shape with the ray brought into the shape's coordinates, the direction
+    ///   not normalized: then t is the same. Transform the point and the normal back, normalize the normal, and take
+    ///   [`clearance`](Self::clearance) times the largest scale of the transform for `error`, and some ulp of the largest
+    ///   coordinate of the transform's translation and of the point more.
     ///
     /// ```
     /// use core::ops::Range;

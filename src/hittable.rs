@@ -35,8 +35,8 @@ use crate::{Hit, Ray, Sphere, Vector};
 ///
 /// [`nearest`] and collections of shapes rely on the following:
 ///
-/// - The `t` of a hit is finite, above 0 and in the range. Otherwise, points behind the ray's origin, or the origin itself, would be
-///   hit.
+/// - The `t` of a hit is finite, above 0 and in the range. Otherwise, points behind the ray's origin, or the origin itself, would
+///   be hit.
 /// - It is the hit with the least such `t`.
 /// - A ray that is not finite or has a zero direction hits nothing.
 /// - In a range that is empty or has a NaN, there is no hit.
@@ -46,7 +46,8 @@ use crate::{Hit, Ray, Sphere, Vector};
 pub trait Hittable<V: Vector = glam::Vec3> {
     /// Returns the nearest hit with `t` > 0 and in `range`, or `None` if there is none.
     ///
-    /// To find where the ray leaves a sphere after `hit`, begin the range just above its `t`: at `hit.t.next_up()` or, before Rust
+    /// To find where the ray leaves a sphere after `hit`, begin the range just above its `t`: at `hit.t.next_up()` or, before
+    /// Rust
     /// 1.86, at `f32::from_bits(hit.t.to_bits() + 1)`. It costs about what the entry costs. Among several objects, such a range skips
     /// what has the same `t`. All crossings with spheres, in order, are what [`SphereBvh::hits`] returns.
     ///
@@ -82,8 +83,9 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     /// For a point light, which is not an object of the scene, take the vector from the hit to the light for the direction of the
     /// shadow ray, and `0.0..1.0` for the range: objects behind the light do not count.
     ///
-    /// A lamp that is an object of the scene must not occlude itself. The shadow ray does not hit it exactly at t = 1, because the
-    /// ray starts a little off the surface. So let the range end where the ray hits the lamp: a half-open range excludes its end.
+    /// A lamp that is an object of the scene must not occlude itself. The shadow ray does not hit it exactly at t = 1, because
+    /// the ray starts a little off the surface. So let the range end where the ray hits the lamp: a half-open range excludes its
+    /// end.
     ///
     /// ```
     /// use eyeray::{Hittable, Ray, Sphere};
@@ -116,9 +118,9 @@ pub trait Hittable<V: Vector = glam::Vec3> {
 
     /// Returns `false` only if the ray has no hit with `t` in `range`.
     ///
-    /// This rejects most misses at less cost than [`intersect`](Self::intersect). [`nearest`] and slices call it first, which never
-    /// changes what they return. The default implementation returns `true`. A shape that contains a sphere, such as a sphere with a
-    /// material, should forward the call to the sphere.
+    /// This rejects most misses at less cost than [`intersect`](Self::intersect). [`nearest`] and slices call it first, which
+    /// never changes what they return. The default implementation returns `true`. A shape that contains a sphere, such as a
+    /// sphere with a material, should forward the call to the sphere.
     #[inline]
     #[must_use]
     fn may_hit(&self, ray: &Ray<V>, range: Range<V::Scalar>) -> bool {
@@ -129,8 +131,8 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     /// Returns the sphere that this object is, or `None` for any other shape.
     ///
     /// [`nearest`] and slices ask for it where two objects are hit at an equal `t`: which of the two spheres is in front is then
-    /// decided by their exact roots. The default implementation returns `None`. A shape that contains a sphere, such as a sphere with
-    /// a material, should forward the call to the sphere, if its hits are those of the sphere on the same ray.
+    /// decided by their exact roots. The default implementation returns `None`. A shape that contains a sphere, such as a sphere
+    /// with a material, should forward the call to the sphere, if its hits are those of the sphere on the same ray.
     ///
     /// ```
     /// use core::ops::Range;
@@ -170,8 +172,8 @@ pub trait Hittable<V: Vector = glam::Vec3> {
         None
     }
 
-    /// Which of four objects [may be hit](Self::may_hit): the bit `1 << i` is that of `objects[i]`. Only this crate can call it or
-    /// implement it, so that it may change.
+    /// Which of four objects [may be hit](Self::may_hit): the bit `1 << i` is that of `objects[i]`. Only this crate can call it
+    /// or implement it, so that it may change.
     #[doc(hidden)]
     #[inline]
     fn may_hit_four(objects: &[Self; 4], ray: &Ray<V>, range: Range<V::Scalar>, _: Crate) -> u32
@@ -250,9 +252,9 @@ impl<V: Vector, H: Hittable<V>> Hittable<V> for [H] {
 
 /// Returns the nearest hit among `objects` with `t` in `range`, and the index of the object hit.
 ///
-/// Of equal `t`, the sphere in front is returned: the exact roots are compared, and only where these are equal too, the lowest index
-/// is returned. For that, both objects must be spheres, or contain one that [`as_sphere`](Hittable::as_sphere) returns. Of other
-/// objects with equal `t`, the one with the lowest index is returned. Each object is tested in turn, first by
+/// Of equal `t`, the sphere in front is returned: the exact roots are compared, and only where these are equal too, the lowest
+/// index is returned. For that, both objects must be spheres, or contain one that [`as_sphere`](Hittable::as_sphere) returns. Of
+/// other objects with equal `t`, the one with the lowest index is returned. Each object is tested in turn, first by
 /// [`may_hit`](Hittable::may_hit). For spheres, `Spheres` and `SphereBvh` (feature `alloc`) return the same in less time.
 ///
 /// Use it for picking: with the [`pixel_ray`](crate::Camera::pixel_ray) of the mouse, the index is that of the object below it.

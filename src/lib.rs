@@ -35,12 +35,12 @@
 //!   rendering or for picking with the mouse, or of all pixels ([`rays`](Camera::rays)), and finds the pixel of a point
 //!   ([`project_to_pixel`](Camera::project_to_pixel)), for labels.
 //! - [`Frame`] and [`ViewRect`]: the position and orientation of a camera, and the part of its view plane that the image shows.
-//! - [`Sphere`]: a center and a radius. Its roots can be found by the quadratic formula ([`Algebraic`]) or by the closest approach
-//!   ([`Geometric`]); both give the same bits.
+//! - [`Sphere`]: a center and a radius. Its roots can be found by the quadratic formula ([`Algebraic`]) or by the closest
+//!   approach ([`Geometric`]); both give the same bits.
 //! - [`Hittable`]: the trait of everything that a ray can hit, with the nearest hit ([`intersect`](Hittable::intersect)) and
 //!   occlusion ([`occludes`](Hittable::occludes)), for shadow rays and lines of sight.
-//! - [`Hit`]: the distance, the point and the normal. [`spawn`](Hit::spawn) creates the reflected, refracted and shadow rays, which
-//!   do not hit the surface that they leave.
+//! - [`Hit`]: the distance, the point and the normal. [`spawn`](Hit::spawn) creates the reflected, refracted and shadow rays,
+//!   which do not hit the surface that they leave.
 //! - [`nearest`]: which of many objects a ray hits first, and where. For spheres, [`Spheres`] and [`SphereBvh`] return the same
 //!   bits in less time. [`Nearest`] is the trait of all that can be asked this.
 //!
@@ -54,40 +54,41 @@
 //!
 //! # Precision
 //!
-//! The types are generic over glam's vectors: [`Vec3`](glam::Vec3), the default, or [`DVec3`](glam::DVec3). See [`Vector`]. `From`
-//! converts rays, spheres, hits, frames and cameras to `f64`, exactly. `to_f32` rounds rays, spheres and view rectangles to `f32`.
+//! The types are generic over glam's vectors: [`Vec3`](glam::Vec3), the default, or [`DVec3`](glam::DVec3). See [`Vector`].
+//! `From` converts rays, spheres, hits, frames and cameras to `f64`, exactly. `to_f32` rounds rays, spheres and view rectangles
+//! to `f32`.
 //!
-//! `f32` is enough for most pictures, because distances and points are correctly rounded. `f64` is for scenes whose coordinates need
-//! more than 24 bits, such as meters on a planet, and for narrow fields of view: where a pixel is narrower than the last digit of an
-//! `f32` direction, 2⁻²⁴ radians or a hundredth of an arc second, the rays of neighboring pixels are the same.
+//! `f32` is enough for most pictures, because distances and points are correctly rounded. `f64` is for scenes whose coordinates
+//! need more than 24 bits, such as meters on a planet, and for narrow fields of view: where a pixel is narrower than the last
+//! digit of an `f32` direction, 2⁻²⁴ radians or a hundredth of an arc second, the rays of neighboring pixels are the same.
 //!
 //! Any version of glam from 0.33.11 to the last 0.34 will do. `eyeray::glam` is the one that this crate was compiled with; the
 //! README says how to have only one version in a program.
 //!
 //! # Source
 //!
-//! The formulas are those of S. Marschner, CS4620 lecture 6, *Ray Tracing Basics*, generalized to any center, radius and length of
-//! direction. Where the documentation of an item says "the lecture", it means this one. Materials, triangles, colors and other
+//! The formulas are those of S. Marschner, CS4620 lecture 6, *Ray Tracing Basics*, generalized to any center, radius and length
+//! of direction. Where the documentation of an item says "the lecture", it means this one. Materials, triangles, colors and other
 //! acceleration structures are out of scope.
 //!
 //! # Features
 //!
 //! - `std` (default): square roots from the hardware, and `alloc`.
-//! - `libm`: square roots from the [libm](https://docs.rs/libm) crate, for `no_std`. One of `std` and `libm` is needed. See [Small
-//!   machines](#small-machines).
+//! - `libm`: square roots from the [libm](https://docs.rs/libm) crate, for `no_std`. One of `std` and `libm` is needed. See
+//!   [Small machines](#small-machines).
 //! - `alloc`: [`Spheres`] and [`SphereBvh`], and [`Hittable`] for `Vec`, `Box`, `Rc` and `Arc`. Implied by `std`.
-//! - `serde`: `Serialize` and `Deserialize` for all data types. A [`Camera`] is validated when it is deserialized. Formats
-//!   that read each `f64` bit for bit give the same camera back: `serde_json` needs its feature `float_roundtrip` for that. JSON has
+//! - `serde`: `Serialize` and `Deserialize` for all data types. A [`Camera`] is validated when it is deserialized. Formats that
+//!   read each `f64` bit for bit give the same camera back: `serde_json` needs its feature `float_roundtrip` for that. JSON has
 //!   no NaN and no infinity: `serde_json` writes `null`, which it does not read again as a number.
 //! - `bytemuck`: `Pod` and `Zeroable` for [`Ray`] and [`Sphere`], to upload them to a GPU or read them from a file as bytes.
 //! - `approx-05`: `AbsDiffEq`, `RelativeEq` and `UlpsEq` of approx 0.5, for tests with a tolerance.
 //!
 //! # Small machines
 //!
-//! On a Cortex-M4F, whose hardware has no `f64`, an easy hit takes 35 times the instructions of the textbook's formula, one from 1,000
-//! radii away 50 times, and a miss through [`nearest`] 2.3 times. Beyond the formula, `intersect` of a [`Sphere`] takes 16 kB of code
-//! there in `f32` and 17 kB in both precisions, optimized for size, and in WebAssembly 10 kB in `f32` and 64 kB in both
-//! (`tests/targets/run costs`, in the repository).
+//! On a Cortex-M4F, whose hardware has no `f64`, an easy hit takes 35 times the instructions of the textbook's formula, one from
+//! 1,000 radii away 50 times, and a miss through [`nearest`] 2.3 times. Beyond the formula, `intersect` of a [`Sphere`] takes 16
+//! kB of code there in `f32` and 17 kB in both precisions, optimized for size, and in WebAssembly 10 kB in `f32` and 64 kB in
+//! both (`tests/targets/run costs`, in the repository).
 // Without `alloc` these two do not exist, and the links above lead to the documentation with all features.
 #![cfg_attr(not(feature = "alloc"), doc = "")]
 #![cfg_attr(

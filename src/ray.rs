@@ -42,8 +42,8 @@ impl<V: Vector> Ray<V> {
 
     /// Returns the point `origin + t direction`, computed in the precision of `V`.
     ///
-    /// Where a ray hits a surface, [`Hit::point`](crate::Hit::point) is more accurate: it is computed in more digits from a `t` that
-    /// is not rounded yet, and each coordinate is rounded once.
+    /// Where a ray hits a surface, [`Hit::point`](crate::Hit::point) is more accurate: it is computed in more digits from a `t`
+    /// that is not rounded yet, and each coordinate is rounded once.
     #[inline]
     #[must_use]
     #[doc(alias("point_at", "get_point"))]

@@ -2,8 +2,8 @@
 //!
 //! A function of a user's that is generic over `V: Vector` can call every method of every supertrait of [`Vector`], in whatever
 //! module that trait is. So the traits with what only this crate may call are no supertraits. [`Internal`] has them all, and an
-//! [`Operation`] is what needs it: [`Sealed::perform`], which every [`Vector`] has, runs it in the vector's precision. A user finds
-//! that method too, but nothing to call it with, because there are no operations outside of this crate.
+//! [`Operation`] is what needs it: [`Sealed::perform`], which every [`Vector`] has, runs it in the vector's precision. A user
+//! finds that method too, but nothing to call it with, because there are no operations outside of this crate.
 
 use glam::{DVec3, Vec3};
 

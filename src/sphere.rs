@@ -45,14 +45,14 @@ use crate::{Hit, Hittable, Ray, Vector, rejection};
 /// 4. The direction need not be unit, and t counts in its lengths: of 2ᵏ times the direction, t is 2⁻ᵏ times as large,
 ///    exactly.
 /// 5. A ray is a half-line: a hit is at the smallest root that, as returned, is finite, above 0 and in the range.
-/// 6. Each coordinate of [`Hit::point`] is off by at most 0.51 ulp of itself, plus the smaller of 2⁻³⁰ of the distance travelled (t
-///    times the direction's length) and 2⁻²⁴ of the radius; with `DVec3`, these are 2⁻⁶⁰ and 2⁻⁵³. Instead of 0.51 ulp it is 1 ulp
-///    where the coordinate is subnormal or, in `f64`, below 2⁻⁸⁴⁸. Each coordinate of [`Hit::normal`], the outward unit normal, is
-///    off by at most 2 ulp of 1; at radius 0, where there is none, it points back along the ray.
-/// 7. A ray of [`Hit::spawn`] never hits the surface that it leaves, if the radius is at least 1,000 ulp of the coordinates of the
-///    point. It starts no farther from it than stated at [`spawn`](Hit::spawn).
-/// 8. Of many spheres, the one returned is that whose exact root is least among those accepted by point 5, also where distances round
-///    to the same number; of equal exact roots, the one of the lowest index: [`nearest`](crate::nearest) tells among what.
+/// 6. Each coordinate of [`Hit::point`] is off by at most 0.51 ulp of itself, plus the smaller of 2⁻³⁰ of the distance travelled
+///    (t times the direction's length) and 2⁻²⁴ of the radius; with `DVec3`, these are 2⁻⁶⁰ and 2⁻⁵³. Instead of 0.51 ulp it is 1
+///    ulp where the coordinate is subnormal or, in `f64`, below 2⁻⁸⁴⁸. Each coordinate of [`Hit::normal`], the outward unit
+///    normal, is off by at most 2 ulp of 1; at radius 0, where there is none, it points back along the ray.
+/// 7. A ray of [`Hit::spawn`] never hits the surface that it leaves, if the radius is at least 1,000 ulp of the coordinates of
+///    the point. It starts no farther from it than stated at [`spawn`](Hit::spawn).
+/// 8. Of many spheres, the one returned is that whose exact root is least among those accepted by point 5, also where distances
+///    round to the same number; of equal exact roots, the one of the lowest index: [`nearest`](crate::nearest) tells among what.
 ///
 /// # How
 ///
@@ -159,9 +159,9 @@ impl<V: Vector> Sphere<V> {
 
     /// Returns where the ray leaves the sphere, if `t` > 0 and in `range` there. `None` also where the line misses.
     ///
-    /// [`intersect`](Hittable::intersect) returns where the ray enters or, from inside, leaves. The two together give what the ray
-    /// passes through of the sphere, with both points and normals, as constructive solid geometry needs it. The normal is outward
-    /// here, too.
+    /// [`intersect`](Hittable::intersect) returns where the ray enters or, from inside, leaves. The two together give what the
+    /// ray passes through of the sphere, with both points and normals, as constructive solid geometry needs it. The normal is
+    /// outward here, too.
     ///
     /// A line that touches the sphere leaves it where it enters. From far away, both `t` may be equal also where the line passes
     /// through: the point and the normal are then still those of the exit.

@@ -160,7 +160,8 @@ fn is_large<V: Coordinates>(sphere: &Sphere<V>, point: V) -> bool {
 }
 
 /// Whether a spawned ray starts no farther from the surface than promised: 32 times the sum of an ulp of the point's largest
-/// coordinate and the smaller of a part of the distance travelled and a part of the radius, and a smaller part of the radius more.
+/// coordinate and the smaller of a part of the distance travelled and a part of the radius, and a smaller part of the radius
+/// more.
 fn stays_close<V: Coordinates>(
     sphere: &Sphere<V>,
     ray: &Ray<V>,

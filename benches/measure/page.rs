@@ -1,6 +1,7 @@
 //! The page that every run of the benches ends with: what was measured, and where the reports are.
 //!
-//! `cargo bench` runs one program after the other. Each prints its part of the page at its end; the last, `wrap_up`, prints them all.
+//! `cargo bench` runs one program after the other. Each prints its part of the page at its end; the last, `wrap_up`, prints them
+//! all.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -6,9 +6,9 @@
 //! cargo bench --manifest-path benches/peers/Cargo.toml --bench many_spheres -- --pictures       # only the second table
 //! ```
 //!
-//! Half of the rays are eye rays, half bounce off what those meet. A second table has the rays of a picture, and takes many at a time.
-//! Without Debian's libembree-dev, Embree is skipped. With `RUSTFLAGS='--cfg eyeray_lanes="avx2"'` eyeray does
-//! without AVX-512, and with `"compiled"` without AVX2 too. Embree chooses for itself: in Debian's build, up to AVX2.
+//! Half of the rays are eye rays, half bounce off what those meet. A second table has the rays of a picture, and takes many at a
+//! time. Without Debian's libembree-dev, Embree is skipped. With `RUSTFLAGS='--cfg eyeray_lanes="avx2"'` eyeray does without
+//! AVX-512, and with `"compiled"` without AVX2 too. Embree chooses for itself: in Debian's build, up to AVX2.
 #![allow(missing_docs, reason = "a benchmark")]
 
 #[allow(dead_code, reason = "the example's")]

@@ -48,8 +48,8 @@ const CELLS: i16 = 2;
 /// The atoms, around the world's origin.
 pub(crate) fn atoms() -> Vec<Atom> {
     let mut atoms = Vec::new();
-    // Counted in quarters of a cell. The molecules are where the coordinates are all even and their halves have an even sum: at the
-    // corners and in the middles of the faces of the cells.
+    // Counted in quarters of a cell. The molecules are where the coordinates are all even and their halves have an even sum: at
+    // the corners and in the middles of the faces of the cells.
     let end = 2 * CELLS;
     let quarters = || -end..=end;
     for [x, y, z] in

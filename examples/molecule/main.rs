@@ -11,9 +11,9 @@
 //! cargo run --release --example molecule -- --beside-textbook --zoom 5 --width 720 --height 270 --output examples/molecule.png
 //! ```
 //!
-//! From far away, the distances of atoms one behind the other round to the same `f32`, and the one in front is still the one
-//! that is seen. `--from-afar` asks the rays of the picture with the eye 1e6 and 1e7 radii away, and counts the answers that are
-//! not the atom in front: with this crate none. By the least correctly rounded distance, it is none from 1e6 radii, because atoms of
+//! From far away, the distances of atoms one behind the other round to the same `f32`, and the one in front is still the one that
+//! is seen. `--from-afar` asks the rays of the picture with the eye 1e6 and 1e7 radii away, and counts the answers that are not
+//! the atom in front: with this crate none. By the least correctly rounded distance, it is none from 1e6 radii, because atoms of
 //! this crystal only just touch, and 16 of 6,075 from 1e7.
 //!
 //! ```text
@@ -25,8 +25,8 @@
 //! `--beside-textbook` draws in the right half, it does: the discriminant is the difference of two large numbers, and the
 //! farther the eye, the fewer correct digits are left in it.
 //!
-//! The crate creates the eye rays ([`eyeray::Camera::rays`]), finds the atoms that they hit ([`eyeray::SphereBvh`]), creates the ray
-//! of the mouse's pixel for picking ([`eyeray::Camera::pixel_ray`]), and projects an atom to the pixel of its label
+//! The crate creates the eye rays ([`eyeray::Camera::rays`]), finds the atoms that they hit ([`eyeray::SphereBvh`]), creates the
+//! ray of the mouse's pixel for picking ([`eyeray::Camera::pixel_ray`]), and projects an atom to the pixel of its label
 //! ([`eyeray::Camera::project_to_pixel`]).
 
 mod arguments;

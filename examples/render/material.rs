@@ -30,7 +30,8 @@ pub(crate) struct Scatter {
 }
 
 impl Material {
-    /// Returns the continuation from `hit` of the path that came along `ray`, by three random numbers in 0..1; `None` where it ends.
+    /// Returns the continuation from `hit` of the path that came along `ray`, by three random numbers in 0..1; `None` where it
+    /// ends.
     pub(crate) fn scatter(
         &self,
         ray: &Ray,

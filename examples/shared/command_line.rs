@@ -9,7 +9,8 @@ use std::str::FromStr;
 
 use lexopt::{Parser, ValueExt};
 
-/// Parses the command line, runs the example, and prints its result, or the error. Where `parse` returns `None`, prints the usage.
+/// Parses the command line, runs the example, and prints its result, or the error. Where `parse` returns `None`, prints the
+/// usage.
 pub(crate) fn run<Arguments>(
     name: &str,
     usage: &str,

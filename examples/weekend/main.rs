@@ -1,5 +1,5 @@
-//! The final scene of *[Ray Tracing in One Weekend]* with this crate: some 485 spheres, matte, of metal and of glass, seen through a
-//! thin lens.
+//! The final scene of *[Ray Tracing in One Weekend]* with this crate: some 485 spheres, matte, of metal and of glass, seen
+//! through a thin lens.
 //!
 //! ```text
 //! cargo run --release --example weekend

@@ -38,7 +38,8 @@ impl Objects {
         }
     }
 
-    /// Returns the nearest hit and the index of the object. The range begins at 0, because no ray hits the surface that it leaves.
+    /// Returns the nearest hit and the index of the object. The range begins at 0, because no ray hits the surface that it
+    /// leaves.
     pub(crate) fn nearest(&self, ray: &Ray) -> Option<(usize, Hit)> {
         let range = 0.0..f32::INFINITY;
         match self {

@@ -141,7 +141,8 @@ impl<V: Vector> Camera<V> {
     /// The matrices are two `Mat4`, or for `DVec3` two `DMat4`.
     ///
     /// The rays come from the numbers of the two matrices directly. They are more accurate than those of
-    /// `(projection_matrix * view_matrix).inverse()`, above all far from the world's origin and where the far plane is at infinity.
+    /// `(projection_matrix * view_matrix).inverse()`, above all far from the world's origin and where the far plane is at
+    /// infinity.
     ///
     /// ```
     /// use eyeray::Camera;

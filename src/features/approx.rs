@@ -1,6 +1,7 @@
 //! The traits of the crate approx: two values are close if each of their fields is.
 //!
-//! For a [`Hit`], these are the distance, the point and the normal. The clearance is a bound on rounding errors, and is not compared.
+//! For a [`Hit`], these are the distance, the point and the normal. The clearance is a bound on rounding errors, and is not
+//! compared.
 
 use approx::{AbsDiffEq, RelativeEq, UlpsEq};
 use glam::{DVec3, Vec3};

@@ -45,16 +45,16 @@ enum WrittenProjection<S> {
 /// }
 /// ```
 ///
-/// The basis is in `f64` in both precisions, as the frame keeps it. A format that reads each `f64` bit for bit gives the same frame
-/// back, as [`Camera`] says.
+/// The basis is in `f64` in both precisions, as the frame keeps it. A format that reads each `f64` bit for bit gives the same
+/// frame back, as [`Camera`] says.
 impl<V: Vector + Serialize> Serialize for Frame<V> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         WrittenFrame { eye: self.eye(), basis: [self.u, self.v, self.w] }.serialize(serializer)
     }
 }
 
-/// Deserializes and validates a frame: the error for an invalid one says why, as [`CameraError`] does. The basis need not be exact:
-/// each coordinate may be off by 2 ulp, as left by a fast parser of decimal numbers.
+/// Deserializes and validates a frame: the error for an invalid one says why, as [`CameraError`] does. The basis need not be
+/// exact: each coordinate may be off by 2 ulp, as left by a fast parser of decimal numbers.
 impl<'de, V: Vector + Deserialize<'de>> Deserialize<'de> for Frame<V> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         WrittenFrame::<V>::deserialize(deserializer)?.read().map_err(D::Error::custom)
@@ -77,8 +77,8 @@ impl<'de, V: Vector + Deserialize<'de>> Deserialize<'de> for Frame<V> {
 ///
 /// # Bit for bit
 ///
-/// A format that reads each `f64` bit for bit gives the same camera back. Binary formats do, and most text formats. `serde_json` needs
-/// its feature `float_roundtrip`: without it, an `f64` may be read an ulp off, and so are most cameras, also those of
+/// A format that reads each `f64` bit for bit gives the same camera back. Binary formats do, and most text formats. `serde_json`
+/// needs its feature `float_roundtrip`: without it, an `f64` may be read an ulp off, and so are most cameras, also those of
 /// [`Vec3`](glam::Vec3). Such a camera is still accepted. Its rays are as accurate in `f32`; in `f64` they are off by another ulp
 /// or two.
 impl<V: Vector + Serialize> Serialize for Camera<V>
@@ -137,8 +137,8 @@ impl<V: Vector> WrittenCamera<V, V::Scalar> {
     }
 }
 
-/// Whether these are orthonormal vectors with u × v = w or, from a left-handed view matrix, -w, up to the rounding of their coordinates
-/// by a writer and a reader.
+/// Whether these are orthonormal vectors with u × v = w or, from a left-handed view matrix, -w, up to the rounding of their
+/// coordinates by a writer and a reader.
 fn is_basis([u, v, w]: [DVec3; 3]) -> bool {
     /// With h = 2⁻⁵³, each of the vectors is off by at most h from the rounding of its coordinates, and by 4 h where a reader of
     /// decimal numbers rounds four times (the digits, a power of ten, their quotient, the decimal itself): together 15 h. The

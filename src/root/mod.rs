@@ -40,8 +40,8 @@
 //! assumes what another has found, so each can be tested by itself.
 //!
 //! From [`near_surface`] on, and where a line starts exactly on the surface, the points and normals are correctly rounded, too
-//! ([`points`], with the help of [`ties`]). So all these steps answer alike, bit for bit, and those between the first and the last
-//! can be left out where there is no room for their code ([`Format::has_few_steps`]).
+//! ([`points`], with the help of [`ties`]). So all these steps answer alike, bit for bit, and those between the first and the
+//! last can be left out where there is no room for their code ([`Format::has_few_steps`]).
 
 mod answer;
 mod bounded_chord;

@@ -121,8 +121,8 @@ impl<V: Vector, P: Places<V>> Crossings<V, P> {
 /// On which side of the sphere a hit is.
 #[inline(always)]
 fn side<V: Vector>(hit: &Hit<V>, sphere: &Sphere<V>, ray: &Ray<V>) -> Side {
-    /// The square of a cosine that is certain to have the right sign, in either precision: with each coordinate of the normal within
-    /// 2 ulp of 1, in `f32` 2⁻²², the cosine errs by less than 2⁻²¹.
+    /// The square of a cosine that is certain to have the right sign, in either precision: with each coordinate of the normal
+    /// within 2 ulp of 1, in `f32` 2⁻²², the cosine errs by less than 2⁻²¹.
     const CERTAIN: f64 = 1.0 / 274_877_906_944.0; // 2^-38
 
     let direction = ray.direction.to_f64();

@@ -130,7 +130,8 @@ pub(super) trait Collection<V: Vector> {
     /// Where rays are asked together.
     fn around(&self) -> Around;
 
-    /// Asks all spheres that a ray of the packet may be the first to meet. Rays that share too little of their way are left alone.
+    /// Asks all spheres that a ray of the packet may be the first to meet. Rays that share too little of their way are left
+    /// alone.
     fn ask<Q: Question<V>>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q);
 
     /// The sphere at an index.
@@ -249,12 +250,12 @@ impl<V: Vector> Spheres<V> {
     /// Finds the nearest hit of each ray with `t` in `range`, and the index of its sphere: writes what [`nearest`](Self::nearest)
     /// returns for `rays[i]` to `found[i]`, bit for bit.
     ///
-    /// This takes less time than to ask one by one where rays that lie together follow each other, as those of the pixels of a small
-    /// square do: give as many at once as there are, best in groups of 64, and of 16 in these. Any rays in any order are allowed;
-    /// those that share nothing take about as long as one by one, and so do all in `f64`.
+    /// This takes less time than to ask one by one where rays that lie together follow each other, as those of the pixels of a
+    /// small square do: give as many at once as there are, best in groups of 64, and of 16 in these. Any rays in any order are
+    /// allowed; those that share nothing take about as long as one by one, and so do all in `f64`.
     ///
-    /// If the slices differ in length, the shorter one counts: rays without a place in `found` are not asked, and places in `found`
-    /// without a ray are left as they are.
+    /// If the slices differ in length, the shorter one counts: rays without a place in `found` are not asked, and places in
+    /// `found` without a ray are left as they are.
     ///
     /// Nothing is allocated.
     ///
@@ -284,8 +285,8 @@ impl<V: Vector> Spheres<V> {
     /// Finds for each ray whether it hits any sphere with `t` in `range`, for shadow rays: writes what
     /// [`occludes`](crate::Hittable::occludes) returns for `rays[i]` to `occluded[i]`.
     ///
-    /// What [`nearest_each`](Self::nearest_each) says of the order of rays and of slices that differ in length holds here, too. All
-    /// rays share the range: give the shadow rays to a lamp directions that end there, and `0.0..1.0`.
+    /// What [`nearest_each`](Self::nearest_each) says of the order of rays and of slices that differ in length holds here, too.
+    /// All rays share the range: give the shadow rays to a lamp directions that end there, and `0.0..1.0`.
     pub fn occludes_each(&self, rays: &[Ray<V>], range: Range<V::Scalar>, occluded: &mut [bool]) {
         self.occludes_each_in_lanes(Lanes::best(), rays, &range, occluded);
     }
@@ -317,12 +318,12 @@ impl<V: Vector> SphereBvh<V> {
     /// Finds the nearest hit of each ray with `t` in `range`, and the index of its sphere: writes what [`nearest`](Self::nearest)
     /// returns for `rays[i]` to `found[i]`, bit for bit.
     ///
-    /// This takes less time than to ask one by one where rays that lie together follow each other, as those of the pixels of a small
-    /// square do: give as many at once as there are, best in groups of 64, and of 16 in these. Any rays in any order are allowed;
-    /// those that share nothing take about as long as one by one, and so do all in `f64`.
+    /// This takes less time than to ask one by one where rays that lie together follow each other, as those of the pixels of a
+    /// small square do: give as many at once as there are, best in groups of 64, and of 16 in these. Any rays in any order are
+    /// allowed; those that share nothing take about as long as one by one, and so do all in `f64`.
     ///
-    /// If the slices differ in length, the shorter one counts: rays without a place in `found` are not asked, and places in `found`
-    /// without a ray are left as they are.
+    /// If the slices differ in length, the shorter one counts: rays without a place in `found` are not asked, and places in
+    /// `found` without a ray are left as they are.
     ///
     /// Nothing is allocated.
     ///
@@ -352,8 +353,8 @@ impl<V: Vector> SphereBvh<V> {
     /// Finds for each ray whether it hits any sphere with `t` in `range`, for shadow rays: writes what
     /// [`occludes`](crate::Hittable::occludes) returns for `rays[i]` to `occluded[i]`.
     ///
-    /// What [`nearest_each`](Self::nearest_each) says of the order of rays and of slices that differ in length holds here, too. All
-    /// rays share the range: give the shadow rays to a lamp directions that end there, and `0.0..1.0`.
+    /// What [`nearest_each`](Self::nearest_each) says of the order of rays and of slices that differ in length holds here, too.
+    /// All rays share the range: give the shadow rays to a lamp directions that end there, and `0.0..1.0`.
     pub fn occludes_each(&self, rays: &[Ray<V>], range: Range<V::Scalar>, occluded: &mut [bool]) {
         self.occludes_each_in_lanes(Lanes::best(), rays, &range, occluded);
     }

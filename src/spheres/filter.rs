@@ -188,8 +188,8 @@ fn enlarged_square(radius: f64, margin: f32) -> f32 {
 
 /// What the filter knows of a ray.
 ///
-/// The quotient is the last: the compiler writes four numbers together, and the loop, which reads each alone, would have to wait for
-/// the division before it begins.
+/// The quotient is the last: the compiler writes four numbers together, and the loop, which reads each alone, would have to wait
+/// for the division before it begins.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Segment {
     origin: Vec3,

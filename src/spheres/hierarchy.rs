@@ -73,8 +73,8 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 ///
 /// # Limits
 ///
-/// A sphere with a coordinate or a radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose origin
-/// is farther than 2⁶⁰ from the world's, or whose direction is longer than that or shorter than 2⁻³⁰.
+/// A sphere with a coordinate or a radius beyond 2⁶⁰ is always intersected exactly, and so are all spheres with a ray whose
+/// origin is farther than 2⁶⁰ from the world's, or whose direction is longer than that or shorter than 2⁻³⁰.
 #[derive(Clone)]
 pub struct SphereBvh<V: Vector = Vec3>(pub(super) Shape<V>);
 

@@ -15,9 +15,9 @@ mod tests;
 impl<V: Vector> Spheres<V> {
     /// Returns an iterator over every crossing of the ray with a sphere, nearest first, each with the index of its sphere.
     ///
-    /// It returns what [`SphereBvh::hits`] returns, which has more examples, in the same order. All spheres are filtered for the first
-    /// crossing, and the rest takes no more than the crossings returned. Memory is allocated only if more than four crossings
-    /// were found and not yet returned.
+    /// It returns what [`SphereBvh::hits`] returns, which has more examples, in the same order. All spheres are filtered for the
+    /// first crossing, and the rest takes no more than the crossings returned. Memory is allocated only if more than four
+    /// crossings were found and not yet returned.
     ///
     /// ```
     /// use eyeray::{Ray, Sphere, Spheres};
@@ -60,15 +60,15 @@ impl<V: Vector> SphereBvh<V> {
     /// Returns an iterator over every crossing of the ray with a sphere, nearest first, each with the index of its sphere.
     ///
     /// A ray crosses a sphere where it enters and where it leaves. The normal is outward at both, and
-    /// [`front_face`](Hit::front_face) tells them apart. Each has a `t` that is finite, above 0 and in `range`: of a sphere around the
-    /// ray's origin, only where the ray leaves it is ahead.
+    /// [`front_face`](Hit::front_face) tells them apart. Each has a `t` that is finite, above 0 and in `range`: of a sphere
+    /// around the ray's origin, only where the ray leaves it is ahead.
     ///
     /// # Order
     ///
-    /// The order is that of the exact distances, also where these round to the same `t`. Of equal distances, that of the sphere with
-    /// the lowest index comes first, and of one sphere the entry. No crossing is left out, not even of spheres that are there twice. A
-    /// ray that touches a sphere enters and leaves it at the same point: there, the directions of ray and normal do not tell
-    /// which is which, but of two crossings with one index the first is the entry.
+    /// The order is that of the exact distances, also where these round to the same `t`. Of equal distances, that of the sphere
+    /// with the lowest index comes first, and of one sphere the entry. No crossing is left out, not even of spheres that are
+    /// there twice. A ray that touches a sphere enters and leaves it at the same point: there, the directions of ray and normal
+    /// do not tell which is which, but of two crossings with one index the first is the entry.
     ///
     /// The first crossing is what [`nearest`](Self::nearest) returns, bit for bit.
     ///
@@ -81,7 +81,8 @@ impl<V: Vector> SphereBvh<V> {
     ///
     /// # Examples
     ///
-    /// Picking that clicks through: what lies below the mouse, from front to back. The next click at the same place takes the next.
+    /// Picking that clicks through: what lies below the mouse, from front to back. The next click at the same place takes the
+    /// next.
     ///
     /// ```
     /// use eyeray::{Ray, Sphere, SphereBvh};

@@ -1,10 +1,10 @@
 //! Packets: up to 64 rays that are asked together, for neighbors share their way.
 //!
-//! What all have in common is asked first, of many boxes or spheres at a time: a frustum, or a [`cone`] around the rays. What passes
-//! is asked of 16 rays at a time. For each sphere that a ray meets there, [`bounds`] of t in single precision tell whether it can
-//! be the nearest. So each ray keeps one sphere that is certainly the nearest so far, and the exact routine is asked once, at the
-//! end; at once only where the bounds of two spheres overlap, at the limb, and at the ends of the range. So the answers are those of
-//! one ray at a time, bit for bit.
+//! What all have in common is asked first, of many boxes or spheres at a time: a frustum, or a [`cone`] around the rays. What
+//! passes is asked of 16 rays at a time. For each sphere that a ray meets there, [`bounds`] of t in single precision tell whether
+//! it can be the nearest. So each ray keeps one sphere that is certainly the nearest so far, and the exact routine is asked once,
+//! at the end; at once only where the bounds of two spheres overlap, at the limb, and at the ends of the range. So the answers
+//! are those of one ray at a time, bit for bit.
 
 pub(super) mod bounds;
 pub(super) mod cone;
@@ -35,8 +35,8 @@ const RAYS_IN_A_TEST: u32 = 2;
 /// By how many tests of 16 rays a packet may fall behind before it is given up: it takes as long as some of its rays, one by one.
 const PATIENCE: i32 = 256;
 
-/// How far apart the origins of neighbors may be, in extents of the collection, and their directions, in their lengths. Rays farther
-/// apart share little more than the first nodes.
+/// How far apart the origins of neighbors may be, in extents of the collection, and their directions, in their lengths. Rays
+/// farther apart share little more than the first nodes.
 const NEIGHBORS: [f32; 2] = [0.125, 0.1];
 
 /// How many pairs of rays tell whether they are neighbors.
@@ -48,8 +48,8 @@ const NOWHERE: u32 = u32::MAX;
 /// The least positive number.
 const LEAST_POSITIVE: f32 = f32::from_bits(1);
 
-/// The factor that makes a length larger than it is: a square errs by 3 u of itself, its reciprocal by 4 u, a root of either by 3 u,
-/// and 3 u more are for the product.
+/// The factor that makes a length larger than it is: a square errs by 3 u of itself, its reciprocal by 4 u, a root of either by 3
+/// u, and 3 u more are for the product.
 const LENGTH_FACTOR: f32 = 1.0 + 4.0 * f32::EPSILON;
 
 /// The coordinates of the rays at t are at least those of the lowest origin, and t times the least direction. At the end E of the
@@ -57,9 +57,9 @@ const LENGTH_FACTOR: f32 = 1.0 + 4.0 * f32::EPSILON;
 /// least of linear functions, which is concave. So it is above the straight line from the lowest origin to the lowest point at E,
 /// the slope of which is (x - p) / E.
 ///
-/// With P and D for the largest coordinate of an origin and of a direction, x is off by 2 u (P + E D), x - p by that and u (2 P + E D),
-/// and so are the difference with the error and the quotient: together by at most 9 u (P + E D). The slope is lowered by 16 u of
-/// that, over E.
+/// With P and D for the largest coordinate of an origin and of a direction, x is off by 2 u (P + E D), x - p by that and u (2 P +
+/// E D), and so are the difference with the error and the quotient: together by at most 9 u (P + E D). The slope is lowered by 16
+/// u of that, over E.
 const SLOPE_ERROR: f32 = 8.0 * f32::EPSILON;
 
 /// A bit for each ray of a packet.
@@ -76,8 +76,8 @@ pub(super) struct Sixteen {
     /// |d|, and 1 / |d|, made larger.
     length: [f32; LANES],
     one_over_length: [f32; LANES],
-    /// The bounds of t at the nearest sphere so far: a sphere is nearer if it is met below the one, and is not if it is met above the
-    /// other. At first, both are the end of the range; of a ray that is no longer asked, below zero.
+    /// The bounds of t at the nearest sphere so far: a sphere is nearer if it is met below the one, and is not if it is met above
+    /// the other. At first, both are the end of the range; of a ray that is no longer asked, below zero.
     lower: [f32; LANES],
     pub(super) end: [f32; LANES],
     /// Where that sphere is, if it has not been asked exactly.
@@ -100,8 +100,8 @@ pub(super) struct Packet {
     pub(super) first: f32,
     /// No sphere is wanted beyond it by any ray.
     pub(super) farthest: f32,
-    /// The least and the largest of all origins. With these, and t times those of the directions, all points at any t up to the end
-    /// of the range are bounded.
+    /// The least and the largest of all origins. With these, and t times those of the directions, all points at any t up to the
+    /// end of the range are bounded.
     pub(super) origins: [Vec3; 2],
     pub(super) directions: [Vec3; 2],
     pub(super) cone: Cone,
@@ -122,8 +122,8 @@ impl Packet {
         cone: Cone::EMPTY,
     };
 
-    /// Takes up to [`RAYS`] rays, except those that single precision cannot compute with and those from afar. Returns which: none if
-    /// they are too few or too far apart, or if the range is empty.
+    /// Takes up to [`RAYS`] rays, except those that single precision cannot compute with and those from afar. Returns which: none
+    /// if they are too few or too far apart, or if the range is empty.
     pub(super) fn load<V: Vector>(
         &mut self,
         lanes: Lanes,
@@ -390,8 +390,8 @@ impl Around {
     }
 }
 
-/// Finds the rays that single precision can compute with, as [`Segment::allows`](super::filter::Segment::allows) does, and that do
-/// not come from afar.
+/// Finds the rays that single precision can compute with, as [`Segment::allows`](super::filter::Segment::allows) does, and that
+/// do not come from afar.
 struct Allowed<'a> {
     sixteens: &'a [Sixteen],
     around: Around,

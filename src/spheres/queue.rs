@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 
 use arrayvec::ArrayVec;
 
-/// Items of which the first is taken first: up to `FEW` in the queue itself, the first of them last; more in allocated memory, as a
-/// binary heap, where the item at place n comes before those at 2 n + 1 and 2 n + 2.
+/// Items of which the first is taken first: up to `FEW` in the queue itself, the first of them last; more in allocated memory, as
+/// a binary heap, where the item at place n comes before those at 2 n + 1 and 2 n + 2.
 ///
 /// Few items take less time sorted, and any number takes little time in a heap. What comes first is told with each call, for it
 /// depends on more than the items.

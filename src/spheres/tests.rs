@@ -362,8 +362,8 @@ fn finds_large_spheres_from_afar<V: Tested>() {
     assert!(hits > cases(1000), "{hits}");
 }
 
-/// Compares the collections with a slice where spheres are far from the world's origin, with strays and distant clusters, for rays
-/// from near, from afar and from between.
+/// Compares the collections with a slice where spheres are far from the world's origin, with strays and distant clusters, for
+/// rays from near, from afar and from between.
 fn finds_every_sphere_wherever_it_is<V: Tested>() {
     let mut rng = Rng::new(5);
     let (mut asked, mut hits) = (0, 0);

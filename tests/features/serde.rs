@@ -1,4 +1,5 @@
-//! Data is the same after serializing and deserializing, bit for bit, in JSON and in a binary format; invalid cameras are rejected.
+//! Data is the same after serializing and deserializing, bit for bit, in JSON and in a binary format; invalid cameras are
+//! rejected.
 //!
 //! Of `serde_json`, this takes the feature `float_roundtrip`; `tests/json` does without.
 

@@ -16,8 +16,8 @@ fn first_crossing<V: Coordinates>(ray: &Ray<V>, sphere: &Sphere<V>) -> Option<(R
         .find(|(_, t)| *t > V::Scalar::ZERO && *t < V::Scalar::INFINITY)
 }
 
-/// The sphere whose exact root is least among those whose root, rounded, is finite and above 0; of equal ones the lowest index. And
-/// how many others have a root that rounds to the same number.
+/// The sphere whose exact root is least among those whose root, rounded, is finite and above 0; of equal ones the lowest index.
+/// And how many others have a root that rounds to the same number.
 pub fn first_of<V>(ray: &Ray<V>, spheres: &[Sphere<V>]) -> Option<(usize, usize)>
 where
     V: Coordinates + Vector<Scalar: Float>,

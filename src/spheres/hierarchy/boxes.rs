@@ -129,7 +129,8 @@ impl Boxes {
         (low.into(), high.into())
     }
 
-    /// The boxes through which the ray passes from a start to an end, a bit for each, and where it enters them, or else the start.
+    /// The boxes through which the ray passes from a start to an end, a bit for each, and where it enters them, or else the
+    /// start.
     #[inline(always)]
     pub(super) fn entered<I: Instructions>(
         &self,

@@ -1,5 +1,6 @@
-//! Packets and boxes, in f32 and many lanes at a time: which of 16 boxes some ray may pass through, by the frustum of all, and which
-//! of 16 rays pass through a box. A box may be kept though no ray passes through it; it is never dropped if a sphere in it is hit.
+//! Packets and boxes, in f32 and many lanes at a time: which of 16 boxes some ray may pass through, by the frustum of all, and
+//! which of 16 rays pass through a box. A box may be kept though no ray passes through it; it is never dropped if a sphere in it
+//! is hit.
 //!
 //! **The frustum.** Up to the end of the range, the coordinates of all rays at t are between those of two lines: from p₀ along d₀, and from p₁
 //! along d₁, the least and the largest by axis. So a hit at t in a box from b₀ to b₁ has
@@ -10,10 +11,11 @@
 //!
 //! on each axis: six bounds on t, each an upper or a lower one by the sign of its d.
 //!
-//! A component below 2 u D (D: the largest component of all directions) is replaced by that, downwards for d₀ and upwards for d₁, which takes
-//! nothing from the frustum. With r for 1 / d and L for the largest coordinate of all, relative to the center of the region, as for one
-//! ray, an error of u r in a quotient, two products and two sums make 7 u L r, and the difference of an origin and the center, which is
-//! rounded, u L r. What is left of the [`MARGIN`](super::boxes) of 16 u L r is more than the rounding of t.
+//! A component below 2 u D (D: the largest component of all directions) is replaced by that, downwards for d₀ and upwards for d₁,
+//! which takes nothing from the frustum. With r for 1 / d and L for the largest coordinate of all, relative to the center of the
+//! region, as for one ray, an error of u r in a quotient, two products and two sums make 7 u L r, and the difference of an origin
+//! and the center, which is rounded, u L r. What is left of the [`MARGIN`](super::boxes) of 16 u L r is more than the rounding of
+//! t.
 //!
 //! **A box and 16 rays.** With c and h for the middle of a slab and half its width, a ray is in it between c r - p r ∓ h |r|. That does not depend on
 //! signs. With a component below 2 u D (of this ray) replaced by that, of the same sign:

@@ -1,8 +1,8 @@
 //! The crossings of a ray with the spheres of a hierarchy, in order: the box that the ray enters first is opened first, and a
 //! crossing is given once no box begins at or before it.
 //!
-//! What waits may be in different regions ([`region`](super::region)), and is compared by where the ray enters it from its origin.
-//! The way through a region is found anew each time that the next node is in another one: regions are rare.
+//! What waits may be in different regions ([`region`](super::region)), and is compared by where the ray enters it from its
+//! origin. The way through a region is found anew each time that the next node is in another one: regions are rare.
 
 use core::ops::Range;
 

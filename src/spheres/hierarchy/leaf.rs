@@ -30,9 +30,9 @@
 //! ```
 //!
 //! **Rounded numbers.** Spheres are in the coordinates of the world and in the scene's own precision, and so is p. Only o is
-//! `f32`. The direction may be rounded to `f32`, which moves the point at t by u t |d| ≤ u (r + m |d|), for the hit is at most half
-//! a chord beyond m; r too, by u r; and where p has been moved along the ray, it is off by what [`Tube::moved`] adds to every
-//! radius. That makes r (1 + 13 u) + 12 u m |d|.
+//! `f32`. The direction may be rounded to `f32`, which moves the point at t by u t |d| ≤ u (r + m |d|), for the hit is at most
+//! half a chord beyond m; r too, by u r; and where p has been moved along the ray, it is off by what [`Tube::moved`] adds to
+//! every radius. That makes r (1 + 13 u) + 12 u m |d|.
 //!
 //! |w|² - R² is the sum of x² + y², off by 2 u (x² + y²), and of z² - R², off by u z², u R² and the rounding of the difference,
 //! u R²; to round the sum of the two changes no sign. That is at most 4 u R², or 2 u of R. R takes two more roundings: 4 u in
@@ -164,8 +164,8 @@ impl<S: Scalar> Leaf<S> {
         self.near_narrowed(instructions, tube, offset, limits, closest, clearances)
     }
 
-    /// The same with the coordinates of a lane relative to the ray's origin. All are rounded to `f32` before anything else is done
-    /// with them: in one loop with `f64`, a vector would hold no more of what is `f32`.
+    /// The same with the coordinates of a lane relative to the ray's origin. All are rounded to `f32` before anything else is
+    /// done with them: in one loop with `f64`, a vector would hold no more of what is `f32`.
     #[inline(always)]
     fn near_narrowed<I: Instructions>(
         &self,

@@ -25,9 +25,9 @@
 //! w         o, a product, a difference                                        u |o| + u |m| |d| + u |w|
 //! ```
 //!
-//! Where the line hits, |w| is at most about r, and |o| ≤ r + |m| |d|: w is off by at most 2 u (r + |m| |d|), and |w|² by 2 r times
-//! that. |w|² - R² is a sum of x² + y², off by 2 u (x² + y²), and of z² - R², off by u z² + 2 u R²: together by 4 u R². So R² has to
-//! be larger than r² by
+//! Where the line hits, |w| is at most about r, and |o| ≤ r + |m| |d|: w is off by at most 2 u (r + |m| |d|), and |w|² by 2 r
+//! times that. |w|² - R² is a sum of x² + y², off by 2 u (x² + y²), and of z² - R², off by u z² + 2 u R²: together by 4 u R². So
+//! R² has to be larger than r² by
 //!
 //! ```text
 //! 2 r 2 u (r + |m| |d|) + 4 u r² = 2 r (4 u r + 2 u |m| |d|)   of the first order, and
@@ -38,13 +38,13 @@
 //! 4 u r + 2 u |m| |d| is enough, with its own square for the second order.
 //!
 //! **The bounds of t.** Half the chord, the root times 1 / |d|, is off by 14 u r / |d|: u for the root, u for the product, and 1 / |d| is too
-//! large by 12 u at most. m is off by 9 u |o| / |d|; the sum of both is off by u |t|, and t is rounded, u |t|. With |o| / |d| ≤ |m| +
-//! r / |d| and |t| no more, together that is at most 11 u |m| + 25 u r / |d|, and an ulp of t, so that the upper bound is also above the
-//! float above t, makes 13 u |m| + 27 u r / |d|. What is added to R is added to half the chord, too, or more: the slope of √(R² - |w|²) in
-//! R is R / √(R² - |w|²), no less than 1.
+//! large by 12 u at most. m is off by 9 u |o| / |d|; the sum of both is off by u |t|, and t is rounded, u |t|. With |o| / |d| ≤
+//! |m| + r / |d| and |t| no more, together that is at most 11 u |m| + 25 u r / |d|, and an ulp of t, so that the upper bound is
+//! also above the float above t, makes 13 u |m| + 27 u r / |d|. What is added to R is added to half the chord, too, or more: the
+//! slope of √(R² - |w|²) in R is R / √(R² - |w|²), no less than 1.
 //!
-//! So the reach is [`RADIUS_MARGIN`] r + [`DISTANCE_MARGIN`] |m| |d|, 32 u r + 16 u |m| |d|. (S² is smaller by 2 r reach - reach², no less
-//! than r times it, where S is not negative.)
+//! So the reach is [`RADIUS_MARGIN`] r + [`DISTANCE_MARGIN`] |m| |d|, 32 u r + 16 u |m| |d|. (S² is smaller by 2 r reach -
+//! reach², no less than r times it, where S is not negative.)
 //!
 //! **Overflow and underflow.** As for leaves, of which [`LEAST`] is added to the reach: a radius below that is never certain to be hit.
 

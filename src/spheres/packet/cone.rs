@@ -1,9 +1,9 @@
-//! A cone around the rays of a packet, and which of 16 spheres are in it, in f32 and many lanes at a time. A sphere may pass though no
-//! ray meets it; none is dropped that one of them hits.
+//! A cone around the rays of a packet, and which of 16 spheres are in it, in f32 and many lanes at a time. A sphere may pass
+//! though no ray meets it; none is dropped that one of them hits.
 //!
-//! All rays start within ρ of an axis' origin P, and their directions are within σ of its direction D. So at t > 0, each is within
-//! ρ + σ t of P + t D, and a sphere that it hits there has its center within r + ρ + σ t. With o = c - P, for t between a first
-//! number and an end,
+//! All rays start within ρ of an axis' origin P, and their directions are within σ of its direction D. So at t > 0, each is
+//! within ρ + σ t of P + t D, and a sphere that it hits there has its center within r + ρ + σ t. With o = c - P, for t between a
+//! first number and an end,
 //!
 //! ```text
 //! m = o·D / D·D, but at least the first t and at most the end
@@ -16,15 +16,16 @@
 //! |w| ≤ (r + ρ + σ m) / √(1 - k²)
 //! ```
 //!
-//! For with v = (t - m) |D|, the square of its distance from P + t D is at least |w|² + v², as v and w·D have no signs that would make it less, and
-//! √(|w|² + v²) - k v is least where v = k |w| / √(1 - k²): there it is √(1 - k²) |w|.
+//! For with v = (t - m) |D|, the square of its distance from P + t D is at least |w|² + v², as v and w·D have no signs that would
+//! make it less, and √(|w|² + v²) - k v is least where v = k |w| / √(1 - k²): there it is √(1 - k²) |w|.
 //!
 //! **Rays that come together**, as at a lamp. If the range ends at E, then the distance from P + t D, which is convex in t, is below the
-//! straight line from its value at 0 to that at E. So σ may be the slope of that line, (ρ at E - ρ) / E, which is negative where the rays come
-//! together. All of the above holds for that, too, while |k| < 1.
+//! straight line from its value at 0 to that at E. So σ may be the slope of that line, (ρ at E - ρ) / E, which is negative where
+//! the rays come together. All of the above holds for that, too, while |k| < 1.
 //!
 //! **The error.** With u = 2⁻²⁴, as in leaves: for R the right side, m is off by 9 u |o| / |D|, and so σ m / √(1 - k²) by 6 u |o|, for |k| ≤ ½; |w| is off by
-//! 11 u (R + m |D|) for what hits, its square by 4 u R², 2 u of R; R has 3 roundings. Together 22 u R and 17 u m |D|: the margins are
+//! 11 u (R + m |D|) for what hits, its square by 4 u R², 2 u of R; R has 3 roundings. Together 22 u R and 17 u m |D|: the margins
+//! are
 //! [`MARGIN`], 32 u of each. ρ and σ are made larger for the rounding of their own: see [`Cone::around`].
 
 use glam::{DVec3, Vec3};
@@ -74,8 +75,8 @@ impl Cone {
         first: 0.0,
     };
 
-    /// The cone around rays, if it is not too wide. A distance from the axis is off by 5 u of itself, that at the end by 3 u (ρ + E σ)
-    /// besides: with the margin, that is more than allowed for.
+    /// The cone around rays, if it is not too wide. A distance from the axis is off by 5 u of itself, that at the end by 3 u (ρ +
+    /// E σ) besides: with the margin, that is more than allowed for.
     #[expect(clippy::cast_possible_truncation, reason = "the margin has room for rounding")]
     pub(super) fn around(
         lanes: Lanes,

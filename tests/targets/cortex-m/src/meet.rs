@@ -1,4 +1,5 @@
-//! One sphere met in each precision asked for, by eyeray or by the formula: programs of which this is all have the size of the routines.
+//! One sphere met in each precision asked for, by eyeray or by the formula: programs of which this is all have the size of the
+//! routines.
 
 use core::hint::black_box;
 

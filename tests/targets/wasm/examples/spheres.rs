@@ -1,5 +1,5 @@
-//! Finds the nearest of many spheres in a WebAssembly engine, which takes the time: by `Spheres`, by `nearest` of a slice, and by a
-//! loop over the formula.
+//! Finds the nearest of many spheres in a WebAssembly engine, which takes the time: by `Spheres`, by `nearest` of a slice, and by
+//! a loop over the formula.
 
 #[path = "../../../support/families.rs"]
 mod families;
