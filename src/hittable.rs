@@ -47,9 +47,8 @@ pub trait Hittable<V: Vector = glam::Vec3> {
     /// Returns the nearest hit with `t` > 0 and in `range`, or `None` if there is none.
     ///
     /// To find where the ray leaves a sphere after `hit`, begin the range just above its `t`: at `hit.t.next_up()` or, before
-    /// Rust
-    /// 1.86, at `f32::from_bits(hit.t.to_bits() + 1)`. It costs about what the entry costs. Among several objects, such a range skips
-    /// what has the same `t`. All crossings with spheres, in order, are what [`SphereBvh::hits`] returns.
+    /// Rust 1.86, at `f32::from_bits(hit.t.to_bits() + 1)`. It costs about what the entry costs. Among several objects, such a
+    /// range skips what has the same `t`. All crossings with spheres, in order, are what [`SphereBvh::hits`] returns.
     ///
     #[cfg_attr(feature = "alloc", doc = "[`SphereBvh::hits`]: crate::SphereBvh::hits")]
     #[cfg_attr(

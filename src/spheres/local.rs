@@ -13,8 +13,8 @@
 //! p     a sum                                          v |p|
 //! ```
 //!
-//! Together 2 v (|O| + |p|). D is at least [`LEAST_PART`], 2⁻²³, of the sum of the coordinates of O, over √3, and |p| ≥ D: so
-//! |O| ≤ √3 2²³ |p|, and the error is at most 2⁻²⁸ |p|, the sixteenth part of u |p|. How exactly t is the one that was meant does not
+//! Together 2 v (|O| + |p|). D is at least [`LEAST_PART`], 2⁻²³, of the sum of the coordinates of O, over √3, and |p| ≥ D: so |O|
+//! ≤ √3 2²³ |p|, and the error is at most 2⁻²⁸ |p|, the sixteenth part of u |p|. How exactly t is the one that was meant does not
 //! matter, for p is the point at the t that was found.
 
 use glam::{DVec3, Vec3};

@@ -2,8 +2,8 @@
 //! which of 16 rays pass through a box. A box may be kept though no ray passes through it; it is never dropped if a sphere in it
 //! is hit.
 //!
-//! **The frustum.** Up to the end of the range, the coordinates of all rays at t are between those of two lines: from p₀ along d₀, and from p₁
-//! along d₁, the least and the largest by axis. So a hit at t in a box from b₀ to b₁ has
+//! **The frustum.** Up to the end of the range, the coordinates of all rays at t are between those of two lines: from p₀ along
+//! d₀, and from p₁ along d₁, the least and the largest by axis. So a hit at t in a box from b₀ to b₁ has
 //!
 //! ```text
 //! p₀ + t d₀ ≤ b₁   and   p₁ + t d₁ ≥ b₀
@@ -17,8 +17,8 @@
 //! and the center, which is rounded, u L r. What is left of the [`MARGIN`](super::boxes) of 16 u L r is more than the rounding of
 //! t.
 //!
-//! **A box and 16 rays.** With c and h for the middle of a slab and half its width, a ray is in it between c r - p r ∓ h |r|. That does not depend on
-//! signs. With a component below 2 u D (of this ray) replaced by that, of the same sign:
+//! **A box and 16 rays.** With c and h for the middle of a slab and half its width, a ray is in it between c r - p r ∓ h |r|.
+//! That does not depend on signs. With a component below 2 u D (of this ray) replaced by that, of the same sign:
 //!
 //! ```text
 //! r                 a quotient                  is off by at most  u r, and so c r, p r and h r by 3 u L r

@@ -37,16 +37,17 @@
 //! and S² smaller than r² by what is of the first order, where the second order makes t no later: for that, a reach of
 //! 4 u r + 2 u |m| |d| is enough, with its own square for the second order.
 //!
-//! **The bounds of t.** Half the chord, the root times 1 / |d|, is off by 14 u r / |d|: u for the root, u for the product, and 1 / |d| is too
-//! large by 12 u at most. m is off by 9 u |o| / |d|; the sum of both is off by u |t|, and t is rounded, u |t|. With |o| / |d| ≤
-//! |m| + r / |d| and |t| no more, together that is at most 11 u |m| + 25 u r / |d|, and an ulp of t, so that the upper bound is
-//! also above the float above t, makes 13 u |m| + 27 u r / |d|. What is added to R is added to half the chord, too, or more: the
-//! slope of √(R² - |w|²) in R is R / √(R² - |w|²), no less than 1.
+//! **The bounds of t.** Half the chord, the root times 1 / |d|, is off by 14 u r / |d|: u for the root, u for the product, and 1
+//! / |d| is too large by 12 u at most. m is off by 9 u |o| / |d|; the sum of both is off by u |t|, and t is rounded, u |t|. With
+//! |o| / |d| ≤ |m| + r / |d| and |t| no more, together that is at most 11 u |m| + 25 u r / |d|, and an ulp of t, so that the
+//! upper bound is also above the float above t, makes 13 u |m| + 27 u r / |d|. What is added to R is added to half the chord,
+//! too, or more: the slope of √(R² - |w|²) in R is R / √(R² - |w|²), no less than 1.
 //!
 //! So the reach is [`RADIUS_MARGIN`] r + [`DISTANCE_MARGIN`] |m| |d|, 32 u r + 16 u |m| |d|. (S² is smaller by 2 r reach -
 //! reach², no less than r times it, where S is not negative.)
 //!
-//! **Overflow and underflow.** As for leaves, of which [`LEAST`] is added to the reach: a radius below that is never certain to be hit.
+//! **Overflow and underflow.** As for leaves, of which [`LEAST`] is added to the reach: a radius below that is never certain to
+//! be hit.
 
 use super::{Mask, Packet, Sixteen};
 use crate::Sphere;

@@ -19,14 +19,14 @@
 //! For with v = (t - m) |D|, the square of its distance from P + t D is at least |w|² + v², as v and w·D have no signs that would
 //! make it less, and √(|w|² + v²) - k v is least where v = k |w| / √(1 - k²): there it is √(1 - k²) |w|.
 //!
-//! **Rays that come together**, as at a lamp. If the range ends at E, then the distance from P + t D, which is convex in t, is below the
-//! straight line from its value at 0 to that at E. So σ may be the slope of that line, (ρ at E - ρ) / E, which is negative where
-//! the rays come together. All of the above holds for that, too, while |k| < 1.
+//! **Rays that come together**, as at a lamp. If the range ends at E, then the distance from P + t D, which is convex in t, is
+//! below the straight line from its value at 0 to that at E. So σ may be the slope of that line, (ρ at E - ρ) / E, which is
+//! negative where the rays come together. All of the above holds for that, too, while |k| < 1.
 //!
-//! **The error.** With u = 2⁻²⁴, as in leaves: for R the right side, m is off by 9 u |o| / |D|, and so σ m / √(1 - k²) by 6 u |o|, for |k| ≤ ½; |w| is off by
-//! 11 u (R + m |D|) for what hits, its square by 4 u R², 2 u of R; R has 3 roundings. Together 22 u R and 17 u m |D|: the margins
-//! are
-//! [`MARGIN`], 32 u of each. ρ and σ are made larger for the rounding of their own: see [`Cone::around`].
+//! **The error.** With u = 2⁻²⁴, as in leaves: for R the right side, m is off by 9 u |o| / |D|, and so σ m / √(1 - k²) by 6 u
+//! |o|, for |k| ≤ ½; |w| is off by 11 u (R + m |D|) for what hits, its square by 4 u R², 2 u of R; R has 3 roundings. Together 22
+//! u R and 17 u m |D|: the margins are [`MARGIN`], 32 u of each. ρ and σ are made larger for the rounding of their own: see
+//! [`Cone::around`].
 
 use glam::{DVec3, Vec3};
 
