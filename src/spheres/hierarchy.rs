@@ -59,8 +59,8 @@ use crate::{Hit, Hittable, Ray, Sphere, Vector};
 ///
 /// # When to use it
 ///
-/// For more than some hundred spheres, in `f32` and in `f64`. To build it of 20,000 takes some 5 ms, and of a million less than
-/// half a second: compared with a scan of 20,000, that pays from some 1,500 rays a frame (`cargo bench --bench sphere_scenes`).
+/// For more than some hundred spheres, in `f32` and in `f64`. To build it of 20,000 takes some 6 ms, and of a million less than
+/// half a second: compared with a scan of 20,000, that pays from some 1,200 rays a frame (`cargo bench --bench sphere_scenes`).
 /// If the spheres move, [`update`](Self::update) takes less. So few spheres that a scan is faster are scanned, as [`Spheres`]
 /// does. It takes at most 32 bytes a sphere, and at most 56 in `f64`. (In the repository, `cargo bench --manifest-path
 /// benches/peers/Cargo.toml --bench many_spheres` measures it beside other libraries.)

@@ -34,8 +34,8 @@ const BLOCKS_IN_A_WORD: usize = 64 / LANES;
 ///
 /// For two spheres or more, up to some hundred, and for more where few rays are asked between changes: spheres can be added,
 /// changed and removed one by one. The time of a query is proportional to their number. For more than some hundred,
-/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. To build it takes time: of 20,000 spheres, some 5 ms,
-/// which pays from some 1,500 rays between changes. (`cargo bench --bench spheres` measures 1 to 65,536 spheres, and `cargo bench
+/// [`SphereBvh`](crate::SphereBvh) skips those far from the ray in groups. To build it takes time: of 20,000 spheres, some 6 ms,
+/// which pays from some 1,200 rays between changes. (`cargo bench --bench spheres` measures 1 to 65,536 spheres, and `cargo bench
 /// --bench sphere_scenes` building and both precisions.)
 ///
 /// # Instructions
