@@ -85,6 +85,7 @@ impl<'a> Integer<'a> {
         self.is_negative && self.len > 0
     }
 
+    /// How the number compares with 0.
     pub(crate) fn sign(&self) -> Ordering {
         if self.is_zero() {
             Ordering::Equal

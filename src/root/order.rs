@@ -348,9 +348,9 @@ impl CrossingPair {
             power.clear();
             power.add_times(&first, one);
             power.add_times(&second, one.negated());
-            sign(&power)
+            power.sign()
         });
-        sign_of_sum(sign(&difference), halves, || {
+        sign_of_sum(difference.sign(), halves, || {
             // H² against D₁ + D₂ + 2 x y: the sign of K - 2 x y.
             let k = &mut power;
             k.clear();
@@ -358,13 +358,13 @@ impl CrossingPair {
             k.add_times(&first, one.negated());
             k.add_times(&second, one.negated());
             let xy = sign_of_product(x, y);
-            sign_of_sum(sign(k), xy.reverse(), || {
+            sign_of_sum(k.sign(), xy.reverse(), || {
                 squares.add(k, k);
                 // 4 D₁, so that all that is subtracted is one product.
                 h.clear();
                 h.add_times(&first, Shifted { integer: 1, places: 2 });
                 squares.subtract(&h, &second);
-                sign(&squares)
+                squares.sign()
             })
         })
     }
@@ -394,17 +394,6 @@ const fn digits_of_squares(places: u32) -> usize {
 /// The digits of all integers of a comparison.
 const fn memory(places: u32) -> usize {
     digits_of_squares(places) + 8 * digits_of_products(places)
-}
-
-/// How an integer compares with 0.
-fn sign(integer: &Integer) -> Ordering {
-    if integer.is_zero() {
-        Ordering::Equal
-    } else if integer.is_negative() {
-        Ordering::Less
-    } else {
-        Ordering::Greater
-    }
 }
 
 /// The sign of a product of numbers of these signs.

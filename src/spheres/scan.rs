@@ -424,9 +424,7 @@ impl<V: Vector> Spheres<V> {
     ) {
         if self.len() <= FEW {
             Bits(self.few_near(ray, range.start)).for_each(ask);
-        } else if let Some(segment) =
-            self.near_segment(ray, range.start).or_else(|| self.segment_from_afar(ray, range))
-        {
+        } else if let Some(segment) = self.segment(ray, range) {
             let mut near = Near::new(self, lanes, &segment);
             let end = segment.end(range.end);
             while let Some((index, _)) = near.next(end) {
