@@ -188,14 +188,15 @@ impl<V: Vector> Tree<V> {
         if near == 0 {
             return true;
         }
-        let mut of_spheres = [rays; LANES];
         let (alone, together) = (rays.count_ones(), near.count_ones() * Packet::tests(rays));
-        if alone < together {
-            of_spheres = lanes.run(InLeafAlone { leaf, packet, rays });
-        }
         if !packet.pays(alone.min(together), alone) {
             return false;
         }
+        let of_spheres = if alone < together {
+            lanes.run(InLeafAlone { leaf, packet, rays })
+        } else {
+            [rays; LANES]
+        };
         for lane in Bits(near.into()) {
             let rays = of_spheres[lane % LANES] & packet.alive;
             if rays != 0 && leaf.index(lane % LANES) != NONE {
