@@ -216,3 +216,18 @@ pub(crate) fn setting(random: &mut Random, lie: Lie) -> [f64; 10] {
     }
     numbers
 }
+
+/// Searches, as [`search`] does, from settings with these lies: of the exact chord and the numbers of each.
+pub(crate) fn search_settings(
+    what: &str,
+    climbs: u64,
+    steps: usize,
+    lies: &[Lie],
+    part: impl Fn(&ExactChord, [f64; 10]) -> Option<f64>,
+) -> f64 {
+    let start = |random: &mut Random| {
+        let lie = lies[random.below(lies.len())];
+        setting(random, lie)
+    };
+    search(what, climbs, steps, start, |numbers| part(&ExactChord::new(numbers), numbers))
+}

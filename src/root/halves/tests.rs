@@ -6,9 +6,7 @@ use crate::root::chord::Derivation;
 use crate::root::format::Format;
 use crate::root::plain::{Both, both};
 use crate::root::tests::{ExactLine, difference, length, line, parts_of_tolerance};
-use crate::testing::{
-    Dyadic, ExactChord, Float, Lie, Random, exactly, part_of_bound, search, setting,
-};
+use crate::testing::{Dyadic, ExactChord, Float, Lie, Random, exactly, part_of_bound};
 
 /// A line and a sphere, and the roots of the first step.
 struct Case {
@@ -50,11 +48,8 @@ fn search_settings(
     lies: &[Lie],
     part: impl Fn(&ExactChord, &Case) -> Option<f64>,
 ) -> f64 {
-    let start = |random: &mut Random| {
-        let lie = lies[random.below(lies.len())];
-        setting(random, lie)
-    };
-    search(what, 60, 200, start, |numbers| part(&ExactChord::new(numbers), &Case::new(numbers)))
+    let part = |exact: &ExactChord, numbers| part(exact, &Case::new(numbers));
+    crate::testing::search_settings(what, 60, 200, lies, part)
 }
 
 const LIES: [Lie; 8] = [

@@ -1,6 +1,8 @@
 use super::*;
 use crate::root::tests::{ExactLine, assert_exact, exact_root, length, line};
-use crate::testing::{Dyadic, ExactChord, Lie, Random, exactly, part_of_bound, search, setting};
+use crate::testing::{
+    Dyadic, ExactChord, Lie, Random, exactly, part_of_bound, search_settings, setting,
+};
 
 /// Where the plain discriminant is certain enough.
 const ANYWHERE: [Lie; 6] = [
@@ -23,18 +25,6 @@ const ALMOST_IN_DOUBT: [Lie; 8] = [
     Lie { power: 1.0 - 1e-15, discriminant: 2e-16 },
     Lie { power: 1.0 - 1e-15, discriminant: 1e-30 },
 ];
-
-fn search_settings(
-    what: &str,
-    lies: &[Lie],
-    part: impl Fn(&ExactChord, [f64; 10]) -> Option<f64>,
-) -> f64 {
-    let start = |random: &mut Random| {
-        let lie = lies[random.below(lies.len())];
-        setting(random, lie)
-    };
-    search(what, 60, 250, start, |numbers| part(&ExactChord::new(numbers), numbers))
-}
 
 fn of(bound: f64, size: &Dyadic) -> Dyadic {
     &Dyadic::exactly(bound) * size
@@ -78,8 +68,8 @@ fn offsets_are_as_fine_as_themselves() {
         });
         parts.reduce(f64::max)
     };
-    assert!(search_settings("offset in pairs", &ANYWHERE, part) > 0.1);
-    assert!(search_settings("offset in pairs, from afar", &ALMOST_IN_DOUBT, part) > 0.1);
+    assert!(search_settings("offset in pairs", 60, 250, &ANYWHERE, part) > 0.1);
+    assert!(search_settings("offset in pairs, from afar", 60, 250, &ALMOST_IN_DOUBT, part) > 0.1);
 }
 
 /// The part of its bound that the error of the discriminant from the closest approach takes.
@@ -104,7 +94,13 @@ fn part_of_moved(exact: &ExactChord, numbers: [f64; 10]) -> Option<f64> {
 #[test]
 fn discriminants_from_the_closest_approach_keep_their_bound() {
     assert!(
-        search_settings("discriminant of the moved origin", &ALMOST_IN_DOUBT, part_of_moved) > 0.1
+        search_settings(
+            "discriminant of the moved origin",
+            60,
+            250,
+            &ALMOST_IN_DOUBT,
+            part_of_moved
+        ) > 0.1
     );
 }
 
@@ -153,8 +149,8 @@ fn roots(exact: &ExactChord, numbers: [f64; 10]) -> Option<f64> {
 
 #[test]
 fn roots_in_pairs_keep_their_bound() {
-    assert!(search_settings("roots in pairs", &ALMOST_IN_DOUBT, roots) > 0.03);
-    assert!(search_settings("roots in pairs, anywhere", &ANYWHERE, roots) > 0.03);
+    assert!(search_settings("roots in pairs", 60, 250, &ALMOST_IN_DOUBT, roots) > 0.03);
+    assert!(search_settings("roots in pairs, anywhere", 60, 250, &ANYWHERE, roots) > 0.03);
 }
 
 /// The part that the error of the offset at a root takes of its bound, after a look at whether the hit is right.
@@ -183,8 +179,10 @@ fn offsets(exact: &ExactChord, numbers: [f64; 10]) -> Option<f64> {
 
 #[test]
 fn offsets_at_roots_keep_their_bound() {
-    assert!(search_settings("offset at a root, from pairs", &ANYWHERE, offsets) > 0.01);
-    assert!(search_settings("offset at a root, in doubt", &ALMOST_IN_DOUBT, offsets) > 0.01);
+    assert!(search_settings("offset at a root, from pairs", 60, 250, &ANYWHERE, offsets) > 0.01);
+    assert!(
+        search_settings("offset at a root, in doubt", 60, 250, &ALMOST_IN_DOUBT, offsets) > 0.01
+    );
 }
 
 #[test]

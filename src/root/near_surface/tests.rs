@@ -7,20 +7,8 @@ use crate::root::format::Format;
 use crate::root::power::accurate_power;
 use crate::root::tests::{assert_exact, line};
 use crate::testing::{
-    Dyadic, ExactChord, Float, Lie, Random, exactly, part_of_bound, search, setting,
+    Dyadic, ExactChord, Float, Lie, Random, exactly, part_of_bound, search_settings, setting,
 };
-
-fn search_settings(
-    what: &str,
-    lies: &[Lie],
-    part: impl Fn(&ExactChord, [f64; 10]) -> Option<f64>,
-) -> f64 {
-    let start = |random: &mut Random| {
-        let lie = lies[random.below(lies.len())];
-        setting(random, lie)
-    };
-    search(what, 80, 250, start, |numbers| part(&ExactChord::new(numbers), numbers))
-}
 
 fn chord(line: &Line) -> (Chord<f64>, f64, f64) {
     let radius_squared = line.radius * line.radius;
@@ -67,7 +55,7 @@ fn small_roots_keep_their_bound() {
         let bound = &Dyadic::exactly(relative_error) * &expected.clone().abs();
         Some(part_of_bound(&exactly(t), &expected, &bound))
     };
-    assert!(search_settings("small root", &SMALL, part) > 0.002);
+    assert!(search_settings("small root", 80, 250, &SMALL, part) > 0.002);
 
     // By what is left where the power is that good, the bound of the rest is looked at alone.
     let part = |exact: &ExactChord, numbers| {
@@ -77,7 +65,7 @@ fn small_roots_keep_their_bound() {
         let bound = &(&Dyadic::exactly(ROOT_ERROR) + &power_error) * &expected.clone().abs();
         Some(part_of_bound(&exactly(t), &expected, &bound))
     };
-    assert!(search_settings("small root, least chord", &SMALL[..2], part) > 0.0);
+    assert!(search_settings("small root, least chord", 80, 250, &SMALL[..2], part) > 0.0);
 }
 
 #[test]

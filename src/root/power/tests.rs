@@ -1,18 +1,6 @@
 use super::*;
 use crate::root::tests::line;
-use crate::testing::{Dyadic, ExactChord, Lie, Random, exactly, part_of_bound, search, setting};
-
-fn search_settings(
-    what: &str,
-    lies: &[Lie],
-    part: impl Fn(&ExactChord, [f64; 10]) -> Option<f64>,
-) -> f64 {
-    let start = |random: &mut Random| {
-        let lie = lies[random.below(lies.len())];
-        setting(random, lie)
-    };
-    search(what, 80, 250, start, |numbers| part(&ExactChord::new(numbers), numbers))
-}
+use crate::testing::{Dyadic, ExactChord, Lie, exactly, part_of_bound, search_settings};
 
 fn part_of_power(exact: &ExactChord, numbers: [f64; 10]) -> f64 {
     let line = line(numbers);
@@ -43,7 +31,7 @@ fn powers_in_pairs_keep_their_bound() {
     let lies = [0.9, 0.1, 1e-6, 1e-9, -0.9, -0.1, -1e-6, -1e-9]
         .map(|power| Lie { power, discriminant: 0.05 });
     let part = |exact: &ExactChord, numbers| Some(part_of_power(exact, numbers));
-    assert!(search_settings("power in pairs", &lies, part) > 0.1);
+    assert!(search_settings("power in pairs", 80, 250, &lies, part) > 0.1);
 }
 
 #[test]
@@ -51,7 +39,7 @@ fn powers_in_three_floats_keep_their_bound() {
     let lies = [1e-10, 1e-14, 1e-16, 0.0, -1e-10, -1e-14, -1e-16]
         .map(|power| Lie { power, discriminant: 0.5 });
     let part = |exact: &ExactChord, numbers| Some(part_of_power(exact, numbers));
-    assert!(search_settings("power in three floats", &lies, part) > 0.1);
+    assert!(search_settings("power in three floats", 80, 250, &lies, part) > 0.1);
 }
 
 #[test]
