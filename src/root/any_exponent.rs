@@ -14,7 +14,7 @@ use std::env;
 
 use glam::{DVec3, Vec3};
 
-use super::tests::{exact_root, line};
+use super::tests::{careful_steps, exact_root, line};
 use super::*;
 use crate::algebraic::Quadratic;
 use crate::arithmetic::rounding::RoundDown;
@@ -162,8 +162,7 @@ fn listed(answer: Option<Answer>) -> Option<[f64; 7]> {
 /// What is wrong with the answers to a question of the steps before the last.
 fn wrong_step(line: &Line, format: Format, question: &Question) -> Option<&'static str> {
     let expected = listed(last_step(line, format, question));
-    let in_pairs = moved_origin::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
-    let in_integers = integers::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
+    let [in_pairs, in_integers] = careful_steps(line, format, question);
     let is_wrong = |verdict| match verdict {
         Verdict::Miss => expected.is_some(),
         Verdict::Hit(answer) => listed(Some(answer)) != expected,

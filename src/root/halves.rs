@@ -202,7 +202,7 @@ impl Corrected {
         let offset = Triple::from(self.w.high).zip(low, |hi, lo| Pair { hi, lo });
         let [point, offset] =
             [self.point_in_pairs(), offset].map(|value| Near::within(value, error));
-        let crossing = Crossing::new(Side::Far, point, offset, line.radius);
+        let crossing = Crossing { side: Side::Far, point, offset };
         points::surely(line, Format::F64, self.t.hi, crossing)
     }
 }

@@ -8,7 +8,7 @@ use crate::arithmetic::pair::{Pair, two_difference};
 use crate::{Ray, Sphere, Vector};
 
 /// A line and a sphere as the caller gave them.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Line {
     pub(crate) origin: DVec3,
     pub(crate) direction: DVec3,

@@ -70,6 +70,7 @@ pub(crate) use answer::Side;
 use answer::{Answer, Found, Question, Verdict};
 use format::Format;
 use line::Line;
+use scaled_line::Scaled;
 
 #[cfg(test)]
 mod any_exponent;
@@ -115,18 +116,28 @@ fn ask_carefully(line: &Line, format: Format, question: &Question) -> Option<Ans
 #[cold]
 #[inline(never)]
 fn carefully(line: &Line, format: Format, question: &Question) -> Option<Answer> {
-    match moved_origin::chord(line, format).and_then(|mut chord| question.ask(&mut chord)) {
+    let Some(scaled) = Scaled::new(line) else { return in_any_integers(line, format, question) };
+    let verdict = moved_origin::chord(&scaled.line, format)
+        .and_then(|chord| question.ask(&mut scaled.unscaled(chord)));
+    match verdict {
         Verdict::Miss => None,
         Verdict::Hit(answer) => Some(answer),
-        Verdict::Doubt => in_integers(line, format, question),
+        Verdict::Doubt => in_integers(line, &scaled, format, question),
     }
 }
 
 /// Takes the last step but one.
 #[cold]
 #[inline(never)]
-fn in_integers(line: &Line, format: Format, question: &Question) -> Option<Answer> {
-    match integers::chord(line, format).and_then(|mut chord| question.ask(&mut chord)) {
+fn in_integers(
+    line: &Line,
+    scaled: &Scaled,
+    format: Format,
+    question: &Question,
+) -> Option<Answer> {
+    let verdict = integers::chord(&scaled.line, format)
+        .and_then(|chord| question.ask(&mut scaled.unscaled(chord)));
+    match verdict {
         Verdict::Miss => None,
         Verdict::Hit(answer) => Some(answer),
         Verdict::Doubt => in_any_integers(line, format, question),

@@ -6,7 +6,7 @@ use super::answer::Side;
 use super::format::Midpoint;
 use super::line::Line;
 use crate::arithmetic::integer::Shifted;
-use crate::arithmetic::pair::U;
+use crate::arithmetic::pair::{Pair, U};
 use crate::arithmetic::product::{Product, sign_of_sum};
 use crate::arithmetic::scaled_pair::ScaledPair;
 use crate::arithmetic::scaling::{integer_and_exponent, scale};
@@ -66,6 +66,11 @@ fn dot(a: [i64; 3], b: [i64; 3]) -> i128 {
     product(a[0], b[0]) + product(a[1], b[1]) + product(a[2], b[2])
 }
 
+/// `integer` 2^`unit`, rounded to 106 bits.
+fn pair(integer: i128, unit: i32) -> Pair {
+    ScaledPair::from_signed(integer, unit).scaled(0)
+}
+
 impl Narrow {
     pub(super) fn new(line: &Line) -> Option<Self> {
         let (d, direction_exponent) = integers(line.direction.to_array())?;
@@ -78,44 +83,36 @@ impl Narrow {
     }
 
     /// d·d.
-    pub(super) fn a(&self) -> ScaledPair {
-        ScaledPair::from_signed(dot(self.d, self.d), 2 * self.direction_exponent)
+    pub(super) fn a(&self) -> Pair {
+        pair(dot(self.d, self.d), 2 * self.direction_exponent)
     }
 
     /// d·o.
-    pub(super) fn h(&self) -> ScaledPair {
-        ScaledPair::from_signed(dot(self.o, self.d), self.length_exponent + self.direction_exponent)
+    pub(super) fn h(&self) -> Pair {
+        pair(dot(self.o, self.d), self.length_exponent + self.direction_exponent)
     }
 
     /// o·o - r².
-    pub(super) fn power(&self) -> ScaledPair {
+    pub(super) fn power(&self) -> Pair {
         let power = dot(self.o, self.o) - product(self.radius, self.radius);
-        ScaledPair::from_signed(power, 2 * self.length_exponent)
-    }
-
-    fn integer_moment(&self) -> [i128; 3] {
-        let Self { o, d, .. } = self;
-        [(1, 2), (2, 0), (0, 1)].map(|(j, k)| product(o[j], d[k]) - product(o[k], d[j]))
-    }
-
-    /// o × d.
-    pub(super) fn moment(&self) -> [ScaledPair; 3] {
-        let unit = self.length_exponent + self.direction_exponent;
-        self.integer_moment().map(|coordinate| ScaledPair::from_signed(coordinate, unit))
+        pair(power, 2 * self.length_exponent)
     }
 
     /// r² (d·d) - |o × d|².
-    pub(super) fn discriminant(&self) -> ScaledPair {
+    pub(super) fn discriminant(&self) -> Pair {
+        let Self { o, d, .. } = self;
         let a = dot(self.d, self.d);
         let radius_squared = product(self.radius, self.radius);
         let a_radius_squared = Product::new(a.unsigned_abs(), radius_squared.unsigned_abs());
-        let [x, y, z] = self.integer_moment().map(Product::square);
+        let [x, y, z] = [(1, 2), (2, 0), (0, 1)]
+            .map(|(j, k)| Product::square(product(o[j], d[k]) - product(o[k], d[j])));
         let moment_squared = x.plus(y).plus(z);
         let unit = 2 * (self.length_exponent + self.direction_exponent);
+        let pair = |difference: Product| difference.to_scaled_pair(unit).scaled(0);
         if a_radius_squared < moment_squared {
-            -moment_squared.minus(a_radius_squared).to_scaled_pair(unit)
+            -pair(moment_squared.minus(a_radius_squared))
         } else {
-            a_radius_squared.minus(moment_squared).to_scaled_pair(unit)
+            pair(a_radius_squared.minus(moment_squared))
         }
     }
 

@@ -94,6 +94,6 @@ pub(super) fn hit(
     let offset = o.zip(step, |o, step| sum(-o, step));
     let point = Near::within(point, of_root + SUM_ERROR * (size(line.origin) + line.radius));
     let offset = Near::within(offset, of_root + SUM_ERROR * (2.0 * line.radius));
-    let crossing = Crossing::new(side, point, offset, line.radius);
+    let crossing = Crossing { side, point, offset };
     points::surely(line, Format::F64, t, crossing)
 }

@@ -154,7 +154,7 @@ fn from_the_surface(line: &Line, chord: Chord<f64>, range: Range<f32>) -> Verdic
     let near = |value: DVec3| Near::within(Triple::from(value).map(Pair::from), error);
     let step = line.direction * t;
     let (point, offset) = (near(line.origin + step), near(step - (line.center - line.origin)));
-    let crossing = Crossing::new(Side::Far, point, offset, line.radius);
+    let crossing = Crossing { side: Side::Far, point, offset };
     points::surely(*line, Format::F32, rounded.into(), crossing)
         .map_or(Verdict::Doubt, Verdict::Hit)
 }

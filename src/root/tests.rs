@@ -20,6 +20,21 @@ pub(super) fn line(numbers: [f64; 10]) -> Line {
     }
 }
 
+/// What the moved origin says, and what integers say.
+pub(super) fn careful_steps(
+    line: &Line,
+    format: Format,
+    question: &Question,
+) -> [Verdict<Answer>; 2] {
+    let Some(scaled) = Scaled::new(line) else { return [Verdict::Doubt, Verdict::Doubt] };
+    [
+        moved_origin::chord(&scaled.line, format)
+            .and_then(|chord| question.ask(&mut scaled.unscaled(chord))),
+        integers::chord(&scaled.line, format)
+            .and_then(|chord| question.ask(&mut scaled.unscaled(chord))),
+    ]
+}
+
 /// Its coordinates rounded to `f32`.
 #[expect(clippy::cast_possible_truncation, reason = "rounding is what this does")]
 pub(super) fn single(numbers: [f64; 10]) -> [f64; 10] {

@@ -4,11 +4,14 @@ use super::*;
 use crate::arithmetic::scaling::scale;
 use crate::root::format::Midpoint;
 use crate::root::narrow::compare_root;
+use crate::root::scaled_line::Scaled;
 use crate::root::tests::{assert_exact, line, single};
 use crate::testing::{Dyadic, ExactChord, Float, Lie, Random, exactly, part_of_bound, setting};
 
-fn number(wide: ScaledPair) -> Dyadic {
-    exactly(wide.scaled(-wide.exponent())).scaled(wide.exponent().into())
+fn numbers_of(Line { origin, direction, center, radius }: &Line) -> [f64; 10] {
+    let [[cx, cy, cz], [px, py, pz], [dx, dy, dz]] =
+        [center, origin, direction].map(|vector| vector.to_array());
+    [cx, cy, cz, px, py, pz, dx, dy, dz, *radius]
 }
 
 /// Lines of every kind: integers, floats of a few exponents, of many, and exact tangents.
@@ -46,12 +49,12 @@ fn random_numbers(random: &mut Random) -> [f64; 10] {
     if numbers[6..9].iter().all(|d| *d == 0.0) {
         numbers[7] = 1.0;
     }
-    // In any units.
+    // In any units, brought near 1.
     let (lengths, directions) = (random.integer(-300..=300), random.integer(-300..=300));
     for (index, number) in numbers.iter_mut().enumerate() {
         *number = scale(*number, if (6..9).contains(&index) { directions } else { lengths });
     }
-    numbers
+    Scaled::new(&line(numbers)).map_or(numbers, |scaled| numbers_of(&scaled.line))
 }
 
 #[test]
@@ -69,10 +72,10 @@ fn chords_in_integers_are_exact_to_96_bits() {
             (found.power(), &exact.power),
             (found.discriminant(), &exact.discriminant),
         ] {
-            assert_eq!(found.is_zero(), expected.is_zero(), "{numbers:?}");
-            assert_eq!(found.is_negative(), expected.is_negative(), "{numbers:?}");
+            assert_eq!((found.hi == 0.0), expected.is_zero(), "{numbers:?}");
+            assert_eq!((found.hi < 0.0), expected.is_negative(), "{numbers:?}");
             let bound = expected.clone().abs().scaled(-96);
-            assert!(part_of_bound(&number(found), expected, &bound) <= 1.0, "{numbers:?}");
+            assert!(part_of_bound(&exactly(found), expected, &bound) <= 1.0, "{numbers:?}");
         }
     }
     assert!((count / 4..count).contains(&narrow), "{narrow} of {count} are narrow");
@@ -189,7 +192,7 @@ fn what_spans_61_places_is_narrow() {
     assert!(is_narrow(numbers(0.0, 0.0, 0.0, f64::from_bits(1), 0.0)));
     // Zeros have no place.
     let all_zero = Narrow::new(&line([0.0; 10])).expect("zeros are narrow");
-    assert!(all_zero.a().is_zero() && all_zero.power().is_zero());
+    assert!(all_zero.a().hi == 0.0 && all_zero.power().hi == 0.0);
     // The largest of 61 bits keep their values, and the widest differences.
     let most = two(60) * (2.0 - 2.0 * f64::EPSILON);
     let numbers = [most, -most, most, -most, most, -most, most, -most, 256.0, most];
@@ -202,7 +205,7 @@ fn what_spans_61_places_is_narrow() {
         (narrow.discriminant(), &exact.discriminant),
     ] {
         let bound = expected.clone().abs().scaled(-96);
-        assert!(part_of_bound(&number(found), expected, &bound) <= 1.0);
+        assert!(part_of_bound(&exactly(found), expected, &bound) <= 1.0);
     }
 }
 
@@ -253,7 +256,7 @@ fn roots_in_integers_are_the_nearest() {
         };
         let exact_roots = exact.roots().expect("this hits");
         for (side, expected) in [Side::Near, Side::Far].into_iter().zip(&exact_roots) {
-            let estimate = number(found.estimate(side));
+            let estimate = exactly(found.estimate(side));
             if exact.discriminant.is_zero() || !expected.is_zero() {
                 let bound = &Dyadic::exactly(ROOT_ERROR) * &expected.clone().abs();
                 let part = part_of_bound(&estimate, expected, &bound);

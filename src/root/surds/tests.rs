@@ -1,6 +1,5 @@
 use super::*;
-use crate::root::tests::{assert_exact, exact_root, exact_surd, line};
-use crate::root::{integers, moved_origin};
+use crate::root::tests::{assert_exact, careful_steps, exact_root, exact_surd, line};
 use crate::testing::{Dyadic, ExactChord, Random};
 
 use crate::testing::families::{FAMILIES, Rng};
@@ -163,11 +162,7 @@ fn every_careful_step_answers_as_this_one() {
         for question in [ALL, Question::Root(Side::Near), Question::Root(Side::Far), Question::Both]
         {
             let expected = bits(ask(line, format, &question));
-            let in_pairs =
-                moved_origin::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
-            let in_integers =
-                integers::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
-            for (count, verdict) in counts.iter_mut().zip([in_pairs, in_integers]) {
+            for (count, verdict) in counts.iter_mut().zip(careful_steps(line, format, &question)) {
                 let found = match verdict {
                     Verdict::Miss => None,
                     Verdict::Hit(answer) => Some(answer),
@@ -319,7 +314,7 @@ fn a_root_below_the_range_of_pairs_is_not_taken_for_exact() {
     ];
     let line = line(numbers);
     assert!(check(&line, Format::F64));
-    let found = integers::chord(&line, Format::F64).and_then(|mut chord| ALL.ask(&mut chord));
+    let [_, found] = careful_steps(&line, Format::F64, &ALL);
     if let Verdict::Hit(found) = found {
         assert_eq!(bits(Some(found)), bits(ask(&line, Format::F64, &ALL)));
     }

@@ -1,0 +1,79 @@
+use super::*;
+use crate::root::tests::line;
+use crate::testing::{Lie, Random, setting};
+
+/// A step that knows these crossings.
+struct Known([f64; 2], Found);
+
+impl Crossings for Known {
+    type Root = ();
+
+    fn root(&mut self, side: Side) -> Option<(f64, ())> {
+        Some((self.0[usize::from(side == Side::Far)], ()))
+    }
+
+    fn hit(&mut self, _: Side, t: f64, (): ()) -> Option<Found> {
+        Some(Found { t, ..self.1 })
+    }
+}
+
+#[test]
+fn lines_of_any_size_are_brought_near_1_and_back() {
+    let mut random = Random::new(2);
+    for _ in 0..2000 {
+        let here = line(setting(&mut random, Lie { power: 0.1, discriminant: 1e-3 }));
+        let (lengths, directions) = (random.integer(-900..=900), random.integer(-900..=900));
+        let there = times(&here, lengths, directions);
+        let scaled = Scaled::new(&there).expect("no digit is lost");
+        let is_scaled = (scaled.length_exponent, scaled.direction_exponent) != (0, 0);
+        assert_eq!(scaled.line == there, !is_scaled);
+        assert_eq!(times(&scaled.line, scaled.length_exponent, scaled.direction_exponent), there);
+        let longest = (scaled.line.center - scaled.line.origin).abs().max_element();
+        let sizes = [longest.max(scaled.line.radius), scaled.line.direction.abs().max_element()];
+        let [length, direction] = sizes.map(exponent);
+        if is_scaled {
+            assert_eq!((length, direction), (0, 0), "{there:?}");
+        } else {
+            assert!(length.abs() < 150 && direction.abs() < 150, "{there:?}");
+        }
+
+        // Roots and points of this size, in its units and in the caller's.
+        let point = DVec3::new(1.5, -0.75, 0.0);
+        let found = Found { t: 0.0, point, normal: DVec3::X };
+        let mut crossings = scaled.unscaled(Known([-1.25, 1.75], found));
+        let e = scaled.length_exponent - scaled.direction_exponent;
+        for (side, t) in [(Side::Near, -1.25), (Side::Far, 1.75)] {
+            let expected = (e == 0 || scale(t, e).abs() > f64::MIN_POSITIVE).then(|| scale(t, e));
+            assert_eq!(crossings.root(side).map(|(t, ())| t), expected, "{t} 2^{e}");
+        }
+        let hit = crossings.hit(Side::Near, 7.0, ()).expect("all coordinates are normal");
+        let expected = point.map(|x| scale(x, scaled.length_exponent));
+        assert_eq!((hit.t, hit.point, hit.normal), (7.0, expected, DVec3::X));
+    }
+}
+
+#[test]
+fn what_loses_digits_is_left_to_the_last_step() {
+    let scaled = |numbers| Scaled::new(&line(numbers));
+    let line = |size: f64| [5.0 * size, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, size];
+    assert!(scaled(line(1.0)).is_some() && scaled(line(1e-300)).is_some());
+    // A coordinate that is no longer an integer of the least number, and one that overflows.
+    let [x, ..] = line(1e300);
+    assert!(scaled([x, 1e-300, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0]).is_none());
+    assert!(scaled([1e-300, 1e300, 0.0, 0.0, 1e300, 0.0, 1.0, 0.0, 0.0, 1e-300]).is_none());
+    // A difference that overflows, all lengths zero, and what no ray can meet.
+    assert!(scaled([1e308, 0.0, 0.0, -1e308, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0]).is_none());
+    assert!(scaled([1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]).is_none());
+    for (index, number) in [(0, f64::NAN), (6, 0.0), (7, f64::INFINITY), (9, -1.0)] {
+        let mut numbers = line(1.0);
+        numbers[index] = number;
+        assert!(scaled(numbers).is_none(), "{numbers:?}");
+    }
+    // Below the normal numbers, and of the least of them, a number may have been rounded twice.
+    assert_eq!(unscaled(1.5, -1022), Some(1.5 * f64::MIN_POSITIVE));
+    assert_eq!(unscaled(-1.0, -1022), None);
+    assert_eq!(unscaled(1.5, -1023), None);
+    assert_eq!(unscaled(-1.0, 1024), Some(f64::NEG_INFINITY));
+    assert_eq!(unscaled(0.0, -1074), Some(0.0));
+    assert_eq!(unscaled(f64::from_bits(1), 0), Some(f64::from_bits(1)));
+}
