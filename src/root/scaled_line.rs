@@ -9,16 +9,19 @@ use crate::arithmetic::scaling::{exponent, scale};
 #[cfg(test)]
 mod tests;
 
-/// A line whose lengths and directions are divided by powers of two, exactly.
+/// A line whose lengths and directions are divided by powers of two.
 pub(super) struct Scaled {
     pub(super) line: Line,
     length_exponent: i32,
     direction_exponent: i32,
+    /// Whether no number was rounded. One that was is so far below the largest of its kind that what it was rounded by is next to
+    /// nothing beside the error bounds of any step in pairs, and integers of a few hundred places have no room for it.
+    is_exact: bool,
 }
 
 impl Scaled {
-    /// `None` where a number would be rounded, where a difference of positions overflows or all lengths are zero, and where no ray
-    /// can meet the sphere at all.
+    /// `None` where a position, or a difference of two, overflows, where all lengths are zero, and where no ray can meet the sphere
+    /// at all.
     #[inline(always)]
     pub(super) fn new(line: &Line) -> Option<Self> {
         /// Fourth powers of what lies within 61 places of this neither overflow nor lose anything in a pair. All lines of numbers
@@ -31,14 +34,16 @@ impl Scaled {
         }
         let [length, direction] = [lengths, line.direction.abs().max_element()].map(exponent);
         if length.abs() < NEAR && direction.abs() < NEAR {
-            return Some(Self { line: *line, length_exponent: 0, direction_exponent: 0 });
+            let line = *line;
+            return Some(Self { line, length_exponent: 0, direction_exponent: 0, is_exact: true });
         }
         let scaled = times(line, -length, -direction);
-        let is_exact = times(&scaled, length, direction) == *line;
-        is_exact.then_some(Self {
+        let is_finite = scaled.origin.is_finite() && scaled.center.is_finite();
+        is_finite.then(|| Self {
             line: scaled,
             length_exponent: length,
             direction_exponent: direction,
+            is_exact: times(&scaled, length, direction) == *line,
         })
     }
 
@@ -49,8 +54,13 @@ impl Scaled {
     }
 }
 
-/// The line with lengths times 2^`length` and the direction times 2^`direction`.
+/// The line with lengths times 2^`length` and the direction times 2^`direction`. What is below the normal numbers is rounded, but
+/// not to zero.
 fn times(line: &Line, length: i32, direction: i32) -> Line {
+    let scale = |x: f64, e: i32| {
+        let scaled = scale(x, e);
+        if scaled == 0.0 && x != 0.0 { f64::MIN_POSITIVE.copysign(x) } else { scaled }
+    };
     let lengths = |vector: DVec3| vector.map(|x| scale(x, length));
     Line {
         origin: lengths(line.origin),
@@ -60,7 +70,8 @@ fn times(line: &Line, length: i32, direction: i32) -> Line {
     }
 }
 
-/// Crossings in the caller's units. In doubt where a root or a coordinate has fewer digits there.
+/// Crossings in the caller's units. In doubt where a root or a coordinate has fewer digits there, and where a point depends on
+/// a number that was rounded.
 pub(super) struct Unscaled<'a, C> {
     crossings: C,
     scaled: &'a Scaled,
@@ -85,6 +96,9 @@ impl<C: Crossings> Crossings for Unscaled<'_, C> {
 
     #[inline(always)]
     fn hit(&mut self, side: Side, t: f64, root: C::Root) -> Option<Found> {
+        if !self.scaled.is_exact {
+            return None;
+        }
         let Found { point, normal, .. } = self.crossings.hit(side, t, root)?;
         let [x, y, z] = point.to_array().map(|x| unscaled(x, self.scaled.length_exponent));
         Some(Found { t, point: DVec3::new(x?, y?, z?), normal })

@@ -26,7 +26,7 @@ fn lines_of_any_size_are_brought_near_1_and_back() {
         let there = times(&here, lengths, directions);
         let scaled = Scaled::new(&there).expect("no digit is lost");
         let is_scaled = (scaled.length_exponent, scaled.direction_exponent) != (0, 0);
-        assert_eq!(scaled.line == there, !is_scaled);
+        assert_eq!((scaled.line == there, scaled.is_exact), (!is_scaled, true));
         assert_eq!(times(&scaled.line, scaled.length_exponent, scaled.direction_exponent), there);
         let longest = (scaled.line.center - scaled.line.origin).abs().max_element();
         let sizes = [longest.max(scaled.line.radius), scaled.line.direction.abs().max_element()];
@@ -57,9 +57,13 @@ fn what_loses_digits_is_left_to_the_last_step() {
     let scaled = |numbers| Scaled::new(&line(numbers));
     let line = |size: f64| [5.0 * size, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, size];
     assert!(scaled(line(1.0)).is_some() && scaled(line(1e-300)).is_some());
-    // A coordinate that is no longer an integer of the least number, and one that overflows.
-    let [x, ..] = line(1e300);
-    assert!(scaled([x, 1e-300, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0]).is_none());
+    // A coordinate that is rounded, and one that overflows.
+    let rounded = scaled([1e300, -1e-200, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0]).expect("finite");
+    assert!(!rounded.is_exact && rounded.line.center.y < 0.0);
+    let found = Found { t: 1.0, point: DVec3::ONE, normal: DVec3::X };
+    let mut crossings = rounded.unscaled(Known([1.0, 2.0], found));
+    assert!(crossings.root(Side::Near).is_some());
+    assert!(crossings.hit(Side::Near, 1.0, ()).is_none());
     assert!(scaled([1e-300, 1e300, 0.0, 0.0, 1e300, 0.0, 1.0, 0.0, 0.0, 1e-300]).is_none());
     // A difference that overflows, all lengths zero, and what no ray can meet.
     assert!(scaled([1e308, 0.0, 0.0, -1e308, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0]).is_none());
