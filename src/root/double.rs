@@ -11,7 +11,7 @@ use super::halves::{self, Correction};
 use super::line::{Line, Setting};
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully, exit_carefully, narrow, near_surface, nearest_carefully, power};
+use super::{both_carefully, exit_carefully, near_surface, nearest_carefully, power, ties};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::pair::LEAST_PAIR;
 use crate::float::sqrt;
@@ -98,8 +98,9 @@ fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
             return None;
         }
         let side = if is_outside { Side::Near } else { Side::Far };
-        let t = Format::F64
-            .round(root.0, root.1, |midpoint| narrow::compare_root(&{ line }, side, midpoint))?;
+        let t = Format::F64.round(root.0, root.1, |midpoint| {
+            ties::compare_root(&{ line }, side, midpoint, None)
+        })?;
         if t > 0.0 && range.contains(&t) {
             return near_surface::hit(line, o, side, root, t).map(Some);
         }

@@ -9,7 +9,7 @@ use super::format::Format;
 use super::line::Line;
 use super::moved_origin;
 use super::narrow::Narrow;
-use super::points;
+use super::{points, ties};
 use crate::arithmetic::pair::{Pair, V};
 
 #[cfg(test)]
@@ -72,7 +72,7 @@ impl Crossings for InIntegers<'_> {
 
     fn root(&mut self, side: Side) -> Option<(f64, Pair)> {
         let exact = self.estimate(side);
-        let compare = |number| self.exact.compare_root(self.line, side, number);
+        let compare = |number| ties::compare_root(self.line, side, number, None);
         let is_zero = exact.hi == 0.0;
         let t = if is_zero { 0.0 } else { self.format.round(exact, ROOT_ERROR, compare)? };
         Some((t, exact))

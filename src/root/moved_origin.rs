@@ -55,9 +55,9 @@ use super::bounded_chord::Bounded;
 use super::chord::Chord;
 use super::format::{Format, Midpoint};
 use super::line::Line;
-use super::narrow;
 use super::points::{self, Crossing, Near};
-use super::power::{self, power_in_pairs};
+use super::power::power_in_pairs;
+use super::ties;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
     LEAST_PAIR, Pair, U, V, compensated_dot, two_difference, two_product, two_sum,
@@ -211,49 +211,16 @@ impl InPairs<'_> {
     /// A number within 3 times the error is nearer to this root than to the other: they are 2 s / a apart. By the moved origin,
     /// s² is above 192 v a r² + 1280 u v a r √m, so that what the power errs by makes less than s / 8 a, and the correction, at
     /// most s / 64 a, brings half of that at most; of a plain discriminant, both are less; and 2 v |t| is next to nothing beside
-    /// s / a, which is above 2⁻⁷² |t|.
+    /// s / a, which is above 2⁻⁷² |t|. So before the near root, and behind the far one, it is known where the closest approach is.
     #[inline(always)]
     fn compare(&self, side: Side, root: &Corrected, number: Midpoint) -> Option<Ordering> {
         let above = root.above(number);
         if above.abs() > 2.0 * (root.error + PAIR_ERROR * root.t.hi.abs()) {
             return above.partial_cmp(&0.0);
         }
-        let certain = quadratic_at(self.line, number);
-        match (certain, side) {
-            (None, _) => narrow::compare_root(self.line, side, number),
-            // Nearer to this root than to the other, outside is before the near one and behind the far one.
-            (Some(quadratic), Side::Near) => Some(quadratic),
-            (Some(quadratic), Side::Far) => Some(quadratic.reverse()),
-        }
+        let ahead = if side == Side::Near { Ordering::Greater } else { Ordering::Less };
+        ties::compare_root(self.line, side, number, Some(ahead))
     }
-}
-
-/// The sign of the quadratic at a number midway between two floats, if that is certain.
-#[inline(always)]
-fn quadratic_at(line: &Line, number: Midpoint) -> Option<Ordering> {
-    // The number is odd: an even one, of 53 bits, and 1.
-    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
-    let even = scale((number.integer - 1) as f64, number.exponent);
-    let one = scale(1.0, number.exponent);
-    let exact = line.o().zip(line.direction.into(), |o, d| {
-        let step = two_product(even, d);
-        let last = one * d;
-        let high = two_difference(step.hi, o.hi);
-        let low = two_difference(step.lo, o.lo);
-        let lower = two_sum(low.hi, last);
-        let lowest = two_sum(lower.hi, high.lo);
-        let is_whole = d == 0.0 || last.abs() > LEAST_PAIR;
-        let dropped = low.lo.abs() + lower.lo.abs() + lowest.lo.abs();
-        (two_sum(high.hi, lowest.hi), if is_whole { dropped } else { f64::INFINITY })
-    });
-    let dropped = exact.x.1 + exact.y.1 + exact.z.1;
-    let w = Triple { x: exact.x.0, y: exact.y.0, z: exact.z.0 };
-    let (power, error) = power::closest_power(w, line.radius);
-    // 0 only where all is exact: what is dropped counts, and its products may underflow.
-    let size = w.x.hi.abs() + w.y.hi.abs() + w.z.hi.abs();
-    let of_dropped = 3.0 * (size + dropped) * dropped + f64::MIN_POSITIVE;
-    let error = if dropped == 0.0 { error } else { error + of_dropped };
-    if power.hi.abs() > error || error == 0.0 { power.hi.partial_cmp(&0.0) } else { None }
 }
 
 impl Crossings for InPairs<'_> {

@@ -1,15 +1,11 @@
-//! Coordinates as integers of 64 bits, where exact products have room in 256 bits, and how a root compares with a number there.
+//! Coordinates as integers of 64 bits, where exact products have room in 256 bits.
 
-use core::cmp::Ordering;
-
-use super::answer::Side;
-use super::format::Midpoint;
 use super::line::Line;
 use crate::arithmetic::integer::Shifted;
-use crate::arithmetic::pair::{Pair, U};
-use crate::arithmetic::product::{Product, sign_of_sum};
+use crate::arithmetic::pair::Pair;
+use crate::arithmetic::product::Product;
 use crate::arithmetic::scaled_pair::ScaledPair;
-use crate::arithmetic::scaling::{integer_and_exponent, scale};
+use crate::arithmetic::scaling::integer_and_exponent;
 
 /// The bits of a length or of a coordinate of the direction: 2⁶¹ and less, so that o, the sum of two, is at most 2⁶², a sum of
 /// three products at most 3 2¹²⁴, and the discriminant at most 2²⁵².
@@ -115,79 +111,4 @@ impl Narrow {
             pair(a_radius_squared.minus(moment_squared))
         }
     }
-
-    /// m d - o at a number, and the radius in its unit. `None` where an integer has no room for these.
-    fn offset_at(&self, number: Midpoint) -> Option<([i128; 3], i128)> {
-        /// So that the sum of two is below 2¹²⁵, and that of three of their squares below 2²⁵².
-        const BITS: u32 = 124;
-        let shift = number.exponent + self.direction_exponent - self.length_exponent;
-        // By how much m d and o are to be shifted.
-        let (left, right) = (shift.max(0).unsigned_abs(), (-shift).max(0).unsigned_abs());
-        let shifted = |integer: i128, places: u32| {
-            let bits = u128::BITS - integer.unsigned_abs().leading_zeros();
-            (integer == 0 || bits.checked_add(places)? <= BITS).then(|| integer << (places % 128))
-        };
-        let mut w = [0; 3];
-        for ((w, d), o) in w.iter_mut().zip(self.d).zip(self.o) {
-            let md = shifted(i128::from(number.integer) * i128::from(d), left)?;
-            *w = md - shifted(o.into(), right)?;
-        }
-        Some((w, shifted(self.radius.into(), right)?))
-    }
-
-    /// The sign of the quadratic at a number, |m d - o|² - r². `None` where an integer has no room for it.
-    pub(super) fn quadratic_at(&self, number: Midpoint) -> Option<Ordering> {
-        let (w, radius) = self.offset_at(number)?;
-        let [x, y, z] = w.map(Product::square);
-        Some(x.plus(y).plus(z).cmp(&Product::square(radius)))
-    }
-
-    /// The sign of what is from a number to the closest approach, h - a m. `None` where an integer has no room for it.
-    pub(super) fn ahead_of(&self, number: Midpoint) -> Option<Ordering> {
-        let (w, _) = self.offset_at(number)?;
-        // -d·(m d - o).
-        let terms = [0, 1, 2].map(|axis| {
-            let negative = (self.d[axis] < 0) == (w[axis] < 0);
-            (negative, Product::new(self.d[axis].unsigned_abs().into(), w[axis].unsigned_abs()))
-        });
-        Some(sign_of_sum(terms))
-    }
-
-    /// How the root on that side compares with a number midway between two floats. `None` where 256 bits have no room for that.
-    pub(super) fn compare_root(
-        &self,
-        line: &Line,
-        side: Side,
-        number: Midpoint,
-    ) -> Option<Ordering> {
-        let quadratic = self.quadratic_at(number)?;
-        if quadratic.is_lt() {
-            return Some(side.compared(quadratic, Ordering::Equal));
-        }
-        let ahead = plainly_ahead(line, number).or_else(|| self.ahead_of(number))?;
-        Some(side.compared(quadratic, ahead))
-    }
-}
-
-/// The sign of what is from a number to the closest approach, h - a m, where that is certain in plain `f64`.
-fn plainly_ahead(line: &Line, number: Midpoint) -> Option<Ordering> {
-    /// Of the products' absolute values: o and m are rounded once, the products twice, and sums three times.
-    const ERROR: f64 = 8.0 * U;
-    /// Above what underflows.
-    const LEAST: f64 = f64::MIN_POSITIVE / U;
-    #[expect(clippy::cast_precision_loss, reason = "it is rounded once")]
-    let m = scale(number.integer as f64, number.exponent);
-    let (o, d) = (line.center - line.origin, line.direction);
-    let (h, am) = (d.dot(o), d.dot(d * m));
-    let (ahead, size) = (h - am, d.abs().dot(o.abs()) + am.abs());
-    let is_certain =
-        m.is_normal() && ahead.abs() > ERROR * size && ahead.abs() > LEAST && size.is_finite();
-    if is_certain { ahead.partial_cmp(&0.0) } else { None }
-}
-
-/// How the root on that side compares with a number midway between two floats. `None` where only integers of many digits tell.
-#[cold]
-#[inline(never)]
-pub(super) fn compare_root(line: &Line, side: Side, number: Midpoint) -> Option<Ordering> {
-    Narrow::new(line)?.compare_root(line, side, number)
 }

@@ -168,7 +168,7 @@ fn in_doubt(
             let is_zero = low[1].abs().max(high[1].abs()) < radius * least(format) * 0.999;
             normal[axis] =
                 if is_zero { 0.0 } else { self::normal(format, certain(low[1], high[1])?, radius) };
-            let compare = |number| ties::compare(line, side, axis, number);
+            let compare = |number| ties::compare_coordinate(line, side, axis, number);
             let coordinate =
                 certain(low[0], high[0]).or_else(|| format.nearer([low[0], high[0]], compare))?;
             point[axis] = coordinate + 0.0;

@@ -13,7 +13,7 @@ use super::line::{Line, Setting};
 use super::plain::{self, Both, Nearest};
 use super::points::{self, Crossing, Near};
 use super::precision::Precision;
-use super::{both_carefully, exit_carefully, narrow, nearest_carefully, power, root_carefully};
+use super::{both_carefully, exit_carefully, nearest_carefully, power, root_carefully, ties};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::number::Triple;
@@ -113,7 +113,7 @@ fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
     let rounded = if Format::F32.has_few_steps() {
         None
     } else {
-        let compare = |midpoint| narrow::compare_root(line, side, midpoint);
+        let compare = |midpoint| ties::compare_root(line, side, midpoint, None);
         Format::F32.round(t.into(), plain::ROOT_ERROR / CLEAR, compare)
     };
     // Only the root is asked for, so that the point is the plain step's, with many steps and with few.

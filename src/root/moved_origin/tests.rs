@@ -211,50 +211,6 @@ fn what_pairs_are_certain_of_is_right() {
 }
 
 #[test]
-fn the_side_of_a_number_is_that_of_its_exact_offset() {
-    let mut random = Random::new(7);
-    let (mut certain, count) = (0, 4000);
-    for round in 0..count {
-        let lie = ANYWHERE[random.below(ANYWHERE.len())];
-        let mut numbers = setting(&mut random, lie);
-        if round % 2 == 0 {
-            // A sphere of half an ulp of the distance, whose center is a number and whose root is midway, or close to it.
-            let beside = 2_f64.powi(-random.integer(1..=60)) * U;
-            numbers = [1.5, beside, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, U];
-        }
-        let exact = ExactChord::new(numbers);
-        let Some([near, far]) = exact.roots() else { continue };
-        {
-            for root in [near, far] {
-                let t = root.approximately();
-                let (integer, exponent) = crate::arithmetic::scaling::integer_and_exponent(t);
-                for above in [-1, 1] {
-                    let integer = 2 * i64::try_from(integer).expect("53 bits") + above;
-                    let integer = if t < 0.0 { -integer } else { integer };
-                    let midpoint = Midpoint { integer, exponent: exponent - 1 };
-                    #[expect(clippy::cast_precision_loss, reason = "two numbers of 53 bits")]
-                    let number = &Dyadic::exactly(scale((integer - 1) as f64, exponent - 1))
-                        + &Dyadic::exactly(scale(1.0, exponent - 1));
-                    let offset = ExactLine::new(numbers).offset(&number);
-                    let square = length_squared(&offset);
-                    let expected = (&square - &exact.radius_squared()).sign();
-                    if let Some(quadratic) = quadratic_at(&line(numbers), midpoint) {
-                        assert_eq!(quadratic, expected, "{midpoint:?} {numbers:?}");
-                        certain += 1;
-                    }
-                }
-            }
-        }
-    }
-    assert!(certain > 3 * count, "{certain} certain");
-}
-
-fn length_squared(vector: &[Dyadic; 3]) -> Dyadic {
-    let [x, y, z] = [0, 1, 2].map(|axis: usize| &vector[axis] * &vector[axis]);
-    &(&x + &y) + &z
-}
-
-#[test]
 fn pairs_are_not_certain_of_tangents() {
     // Tangents with the direction (3, 4, 0) and the normal (-4, 3, 0), moved by what pairs can hardly see.
     let mut random = Random::new(5);
