@@ -4,14 +4,14 @@ use core::ops::Range;
 
 use glam::DVec3;
 
-use super::answer::{Found, Side};
+use super::answer::{Found, Question, Side};
 use super::chord::{Chord, Derivation};
 use super::format::Format;
 use super::halves::{self, Correction};
 use super::line::{Line, Setting};
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully, exit_carefully, near_surface, nearest_carefully, power, ties};
+use super::{ask_carefully, near_surface, power, ties};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::pair::LEAST_PAIR;
 use crate::float::sqrt;
@@ -59,7 +59,7 @@ fn nearest_again(line: &Line, range: Range<f64>) -> Option<Found> {
             return nearest;
         }
     }
-    nearest_carefully(line, Format::F64, range)
+    ask_carefully(line, Format::F64, &Question::Nearest(range))?.nearest()
 }
 
 /// 2⁻⁵⁰⁰, the square of which is not safe.
@@ -168,7 +168,7 @@ impl Precision for DVec3 {
 
     fn exit_at_same_t(sphere: &Sphere<Self>, ray: &Ray<Self>) -> Option<Hit<Self>> {
         let line = Line::new(sphere, ray);
-        let found = exit_carefully(&line, Format::F64)?;
+        let found = ask_carefully(&line, Format::F64, &Question::Exit)?.nearest()?;
         Some(hit(line, found.t, found.point, found.normal))
     }
 
@@ -190,7 +190,7 @@ impl Precision for DVec3 {
                 Both::Doubt => {}
             }
         }
-        both_carefully(&Line::new(sphere, ray), Format::F64)
+        ask_carefully(&Line::new(sphere, ray), Format::F64, &Question::Both)?.roots()
     }
 }
 

@@ -22,16 +22,6 @@ pub(crate) enum Format {
     F64,
 }
 
-/// How far off a point may be besides the rounding of its coordinates: by the smaller of two lengths.
-#[cfg(test)]
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PointTolerance {
-    /// A part of the distance travelled, t times the direction's length.
-    pub(crate) of_distance: f64,
-    /// A part of the radius.
-    pub(crate) of_radius: f64,
-}
-
 impl Format {
     /// Whether the steps between the first ones and the last are left out. The last step returns the same bits as these, so the
     /// results do not change: there is less code, and rare cases take longer.
@@ -42,20 +32,6 @@ impl Format {
         match self {
             Self::F32 => !HAS_F64 || IS_DOWNLOADED,
             Self::F64 => !HAS_F64,
-        }
-    }
-
-    /// What the first steps keep to.
-    #[cfg(test)]
-    pub(crate) const fn point_tolerance(self) -> PointTolerance {
-        match self {
-            // 2^-30 and 2^-24.
-            Self::F32 => PointTolerance {
-                of_distance: f32::EPSILON as f64 / 128.0,
-                of_radius: f32::EPSILON as f64 / 2.0,
-            },
-            // 2^-60 and 2^-53.
-            Self::F64 => PointTolerance { of_distance: U / 128.0, of_radius: U },
         }
     }
 
@@ -92,18 +68,18 @@ impl Format {
         [low, high]: [f64; 2],
         compare: impl FnOnce(Midpoint) -> Option<Ordering>,
     ) -> Option<f64> {
-        let low_is_even = match self {
+        let (below, low_bits) = match self {
             Self::F32 => {
                 #[expect(clippy::cast_possible_truncation, reason = "they are rounded already")]
                 let [low, high] = [low as f32, high as f32];
-                let are_neighbors = high.next_below() == low;
-                are_neighbors.then_some(low.to_bits() % 2 == 0)
+                (f64::from(high.next_below()), u64::from(low.to_bits()))
             }
-            Self::F64 => {
-                let are_neighbors = high.next_below() == low;
-                are_neighbors.then_some(low.to_bits() % 2 == 0)
-            }
-        }?;
+            Self::F64 => (high.next_below(), low.to_bits()),
+        };
+        if below != low {
+            return None;
+        }
+        let low_is_even = low_bits % 2 == 0;
         Some(match compare(self.midpoint([low, high]))? {
             Ordering::Less => low,
             Ordering::Equal if low_is_even => low,

@@ -63,11 +63,10 @@ mod scaled_line;
 mod single;
 mod surds;
 mod ties;
-
-use core::ops::Range;
+mod unit;
 
 pub(crate) use answer::Side;
-use answer::{Answer, Found, Question, Verdict};
+use answer::{Answer, Question, Verdict};
 use format::Format;
 use line::Line;
 use scaled_line::Scaled;
@@ -77,32 +76,7 @@ mod any_exponent;
 #[cfg(test)]
 mod tests;
 
-/// Finds the nearest hit, where the plain steps leave a doubt.
-#[inline(always)]
-fn nearest_carefully(line: &Line, format: Format, range: Range<f64>) -> Option<Found> {
-    ask_carefully(line, format, &Question::Nearest(range))?.nearest()
-}
-
-/// Finds where the ray leaves, if t is finite and above 0 there. No plain step is asked: the two crossings may be very close.
-#[inline(always)]
-fn exit_carefully(line: &Line, format: Format) -> Option<Found> {
-    ask_carefully(line, format, &Question::Exit)?.nearest()
-}
-
-/// Finds both roots, ascending, where the plain steps leave a doubt.
-#[inline(always)]
-fn both_carefully(line: &Line, format: Format) -> Option<[f64; 2]> {
-    ask_carefully(line, format, &Question::Both)?.roots()
-}
-
-/// Finds one root, where the plain steps are certain only that there is one.
-#[inline(always)]
-fn root_carefully(line: &Line, format: Format, side: Side) -> Option<f64> {
-    let [near, far] = ask_carefully(line, format, &Question::Root(side))?.roots()?;
-    Some(if side == Side::Near { near } else { far })
-}
-
-/// Asks the steps that are compiled once, or of few steps the last.
+/// Asks the steps that are compiled once, or of few steps the last, where the plain steps leave a doubt.
 #[inline(always)]
 fn ask_carefully(line: &Line, format: Format, question: &Question) -> Option<Answer> {
     if format.has_few_steps() {

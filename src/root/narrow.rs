@@ -1,15 +1,15 @@
 //! Coordinates as integers of 64 bits, where exact products have room in 256 bits.
 
 use super::line::Line;
+use super::unit::Unit;
 use crate::arithmetic::integer::Shifted;
 use crate::arithmetic::pair::Pair;
 use crate::arithmetic::product::Product;
 use crate::arithmetic::scaled_pair::ScaledPair;
-use crate::arithmetic::scaling::integer_and_exponent;
 
 /// The bits of a length or of a coordinate of the direction: 2⁶¹ and less, so that o, the sum of two, is at most 2⁶², a sum of
 /// three products at most 3 2¹²⁴, and the discriminant at most 2²⁵².
-const BITS: i32 = 61;
+const BITS: u32 = 61;
 
 /// A line and a sphere whose lengths are integers in units of one power of two, and whose directions in units of another.
 pub(super) struct Narrow {
@@ -20,38 +20,11 @@ pub(super) struct Narrow {
     direction_exponent: i32,
 }
 
-/// The unit and the integers of numbers that span at most [`BITS`] places.
-#[inline(always)]
-fn integers<const N: usize>(numbers: [f64; N]) -> Option<([i64; N], i32)> {
-    let mut unit = i32::MAX;
-    let mut top = i32::MIN;
-    for number in numbers {
-        // Without the zeros at its end, a number has a unit of its own.
-        let (integer, exponent) = integer_and_exponent(number);
-        if integer != 0 {
-            unit = unit.min(exponent + signed(integer.trailing_zeros()));
-            top = top.max(exponent + signed(u64::BITS - integer.leading_zeros()));
-        }
-    }
-    if unit == i32::MAX {
-        return Some(([0; N], 0));
-    }
-    if top - unit > BITS {
-        return None;
-    }
-    Some((numbers.map(|number| integer_in(number, unit)), unit))
-}
-
 /// A number that is an integer of at most 61 bits in that unit.
 #[inline(always)]
 fn integer_in(number: f64, unit: i32) -> i64 {
     let Shifted { integer, places } = Shifted::new(number, unit);
     integer << places
-}
-
-#[expect(clippy::cast_possible_wrap, reason = "at most 64")]
-fn signed(places: u32) -> i32 {
-    places as i32
 }
 
 fn product(a: i64, b: i64) -> i128 {
@@ -68,14 +41,22 @@ fn pair(integer: i128, unit: i32) -> Pair {
 }
 
 impl Narrow {
+    /// `None` where the coordinates span too many places.
     pub(super) fn new(line: &Line) -> Option<Self> {
-        let (d, direction_exponent) = integers(line.direction.to_array())?;
-        let [cx, cy, cz] = line.center.to_array();
-        let [px, py, pz] = line.origin.to_array();
-        let ([cx, cy, cz, px, py, pz, radius], length_exponent) =
-            integers([cx, cy, cz, px, py, pz, line.radius])?;
-        let o = [cx - px, cy - py, cz - pz];
-        Some(Self { o, d, radius, length_exponent, direction_exponent })
+        let [lengths, directions] = Unit::of_line(line)?;
+        if lengths.places > BITS || directions.places > BITS {
+            return None;
+        }
+        let length = |x: f64| integer_in(x, lengths.exponent);
+        let direction = |x: f64| integer_in(x, directions.exponent);
+        let Line { origin, direction: d, center, radius } = line;
+        Some(Self {
+            o: [0, 1, 2].map(|axis| length(center[axis]) - length(origin[axis])),
+            d: d.to_array().map(direction),
+            radius: length(*radius),
+            length_exponent: lengths.exponent,
+            direction_exponent: directions.exponent,
+        })
     }
 
     /// d·d.

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use glam::{DVec3, Vec3};
 
-use super::answer::{Found, Side, Verdict};
+use super::answer::{Found, Question, Side, Verdict};
 use super::bounded_chord::Bounded;
 use super::chord::{Chord, Derivation};
 use super::format::Format;
@@ -13,7 +13,7 @@ use super::line::{Line, Setting};
 use super::plain::{self, Both, Nearest};
 use super::points::{self, Crossing, Near};
 use super::precision::Precision;
-use super::{both_carefully, exit_carefully, nearest_carefully, power, root_carefully, ties};
+use super::{ask_carefully, power, ties};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::number::Triple;
@@ -116,8 +116,12 @@ fn round_carefully(line: &Line, t: f64, half_chord: f64) -> Option<f32> {
         let compare = |midpoint| ties::compare_root(line, side, midpoint, None);
         Format::F32.round(t.into(), plain::ROOT_ERROR / CLEAR, compare)
     };
-    // Only the root is asked for, so that the point is the plain step's, with many steps and with few.
-    rounded.or_else(|| root_carefully(line, Format::F32, side)).map(|t| t as f32)
+    // Only roots are asked for, so that the point is the plain step's, with many steps and with few.
+    let carefully = || {
+        let [near, far] = ask_carefully(line, Format::F32, &Question::Both)?.roots()?;
+        Some(if side == Side::Near { near } else { far })
+    };
+    rounded.or_else(carefully).map(|t| t as f32)
 }
 
 /// Finds the nearest hit of a line that starts exactly on the surface: its roots are 0 and 2 h / a.
@@ -176,7 +180,8 @@ fn nearest_again(
     let is_far = exceeds(chord.distance_squared, NEAR, setting.radius_squared);
     let nearest =
         if is_far { from_afar(&setting, &chord) } else { setting.nearest_ahead(&chord, true) };
-    let carefully = || nearest_carefully(line, Format::F32, start.into()..end.into());
+    let question = Question::Nearest(start.into()..end.into());
+    let carefully = || ask_carefully(line, Format::F32, &question)?.nearest();
     let (t, half_chord) = match nearest {
         Nearest::Miss => return None,
         Nearest::Root { t, half_chord } => (t, half_chord),
@@ -279,7 +284,7 @@ fn both_again(sphere: &Sphere, ray: &Ray, line: &Line) -> Option<[f64; 2]> {
             return Some(rounded.map(f64::from));
         }
     }
-    both_carefully(line, Format::F32)
+    ask_carefully(line, Format::F32, &Question::Both)?.roots()
 }
 
 /// Finds the nearest hit: the plain step, and the way to the others.
@@ -371,7 +376,9 @@ impl Precision for Vec3 {
     }
 
     fn exit_at_same_t(sphere: &Sphere, ray: &Ray) -> Option<Hit> {
-        Some(hit(sphere, ray, exit_carefully(&Line::new(sphere, ray), Format::F32)?))
+        let line = Line::new(sphere, ray);
+        let found = ask_carefully(&line, Format::F32, &Question::Exit)?.nearest()?;
+        Some(hit(sphere, ray, found))
     }
 
     #[inline(always)]

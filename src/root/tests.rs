@@ -1,13 +1,38 @@
+use core::ops::Range;
+
 use glam::{DVec3, Vec3};
 
-use super::answer::Side;
-use super::format::PointTolerance;
+use super::answer::{Found, Side};
 use super::*;
 use crate::arithmetic::pair::U;
 use crate::arithmetic::scaling::scale;
 use crate::testing::support::oracle::BITS;
 use crate::testing::{Dyadic, ExactChord, Float, Lie, Random, Root, part_of_bound, setting, total};
 use crate::{Hittable, Ray, Sphere};
+
+/// How far off a point may be besides the rounding of its coordinates: by the smaller of two lengths.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PointTolerance {
+    /// A part of the distance travelled, t times the direction's length.
+    pub(super) of_distance: f64,
+    /// A part of the radius.
+    pub(super) of_radius: f64,
+}
+
+impl Format {
+    /// What the first steps keep to.
+    pub(super) const fn point_tolerance(self) -> PointTolerance {
+        match self {
+            // 2^-30 and 2^-24.
+            Self::F32 => PointTolerance {
+                of_distance: f32::EPSILON as f64 / 128.0,
+                of_radius: f32::EPSILON as f64 / 2.0,
+            },
+            // 2^-60 and 2^-53.
+            Self::F64 => PointTolerance { of_distance: U / 128.0, of_radius: U },
+        }
+    }
+}
 
 /// The line and the sphere of the coordinates of center, origin and direction, and the radius.
 pub(super) fn line(numbers: [f64; 10]) -> Line {

@@ -10,10 +10,11 @@ use super::answer::Side;
 use super::format::Midpoint;
 use super::line::Line;
 use super::power;
+use super::unit::Unit;
 use crate::arithmetic::integer::{Integer, PLACES, Shifted};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{LEAST_PAIR, U, two_difference, two_product, two_sum};
-use crate::arithmetic::scaling::{integer_and_exponent, scale};
+use crate::arithmetic::scaling::scale;
 
 #[cfg(test)]
 mod tests;
@@ -98,15 +99,6 @@ const MOST: i32 = 512;
 /// Of the longest sum: a square of w has twice the digits of w, and its sum one more.
 const DIGITS: usize = (2 * MOST.unsigned_abs() / PLACES + 1) as usize;
 
-/// The exponents of the last place of some numbers and of what is above all of them.
-fn span(numbers: &[f64]) -> (i32, i32) {
-    let numbers = numbers.iter().map(|number| integer_and_exponent(*number));
-    let exponents = numbers.filter(|(integer, _)| *integer != 0).map(|(_, exponent)| exponent);
-    exponents.fold((i32::MAX, i32::MIN), |(unit, top), exponent| {
-        (unit.min(exponent), top.max(exponent + 53))
-    })
-}
-
 /// How the coordinate of a crossing on that axis compares with a number, or, without an axis, its root.
 ///
 /// With L places of lengths and q of directions, n and o are below 2ᴸ⁺¹, d and e below 2ᵠ, and w below 2ᴸ⁺ᵠ⁺². For a root, L
@@ -121,14 +113,13 @@ fn compare_in_integers(
     number: Midpoint,
 ) -> Option<Ordering> {
     let Line { origin: p, direction: d, center: c, radius } = *line;
-    let (direction_unit, direction_top) = span(&d.to_array());
-    let (unit, top) = span(&[p.x, p.y, p.z, c.x, c.y, c.z, radius]);
+    let [lengths, directions] = Unit::of_line(line)?;
+    let direction_unit = directions.exponent;
     // In a root, a unit of lengths less that of directions.
-    let (less, less_at_the_top) =
-        if axis.is_some() { (0, 0) } else { (direction_unit, direction_top) };
-    let unit = unit.min(number.exponent + less);
-    let top = top.max(number.exponent + 54 + less_at_the_top);
-    if (top - unit) + (direction_top - direction_unit) + 2 > MOST {
+    let (less, more) = if axis.is_some() { (0, 0) } else { (direction_unit, directions.top()) };
+    let unit = lengths.exponent.min(number.exponent + less);
+    let top = lengths.top().max(number.exponent + 54 + more);
+    if (top - unit) + (directions.top() - direction_unit) + 2 > MOST {
         return None;
     }
     let mut memory = [[0; DIGITS]; 5];

@@ -68,10 +68,10 @@ fn what_has_no_room_is_not_told() {
     let midpoint = Midpoint { integer: (5 << 50) + 1, exponent: -52 };
     let at = |radius: f64| line([3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, radius]);
     let compare = |radius: f64| compare_coordinate(&at(radius), Side::Near, 0, midpoint);
-    // Of 512 places, 455 are those of lengths above the last of the radius, 53 of the direction, and 2 of sums.
-    assert_eq!(compare(2_f64.powi(-400)), Some(Ordering::Greater));
-    assert_eq!(compare(2_f64.powi(-403)), Some(Ordering::Greater));
-    assert_eq!(compare(2_f64.powi(-404)), None);
+    // Of 512 places, 509 are those of lengths above the last of the radius, 1 of the direction, and 2 of sums.
+    assert_eq!(compare(2_f64.powi(-404)), Some(Ordering::Greater));
+    assert_eq!(compare(2_f64.powi(-507)), Some(Ordering::Greater));
+    assert_eq!(compare(2_f64.powi(-508)), None);
     assert_eq!(compare(2_f64.powi(-1000)), None);
 }
 
