@@ -62,7 +62,7 @@ use glam::DVec3;
 use super::answer::{Found, Side};
 use super::chord::Chord;
 use super::format::Format;
-use super::line::Line;
+use super::line::{Line, Setting};
 use super::points::{self, Crossing, Near};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{Pair, U, fast_two_sum, two_sum};
@@ -87,7 +87,7 @@ const OFFSET_ERROR: f64 = U / 2_097_152.0;
 
 /// How far off a corrected root may be, as a part of itself: 2⁻⁶², and half of that for all else.
 /// Proved in `tests/proofs/halves.g`.
-const ROOT_ERROR: f64 = U / 512.0 * 1.5;
+pub(super) const ROOT_ERROR: f64 = U / 512.0 * 1.5;
 
 /// A vector as the sum of two, exactly.
 #[derive(Clone, Copy, Debug)]
@@ -186,11 +186,17 @@ impl Corrected {
         self.w.high + (self.w.low + self.correction)
     }
 
-    /// The hit at a far root, if it is certain how that is rounded: with |d|, √m and half the chord s.
+    /// The hit at a far root that is rounded to `t`, if it is certain how it is rounded: with |d|, √m and half the chord s.
     ///
     /// By the error of the case, which is far less than [`ROOT_ERROR`] where the chord is long.
     #[inline(always)]
-    pub(super) fn hit(&self, line: Line, length: f64, size: f64, half_chord: f64) -> Option<Found> {
+    pub(super) fn hit(
+        &self,
+        line: Line,
+        format: Format,
+        t: f64,
+        [length, size, half_chord]: [f64; 3],
+    ) -> Option<Found> {
         let per_half_chord = half_chord.recip();
         let tau = self.tau.abs();
         let bend = length * length * tau * per_half_chord;
@@ -203,7 +209,7 @@ impl Corrected {
         let [point, offset] =
             [self.point_in_pairs(), offset].map(|value| Near::within(value, error));
         let crossing = Crossing { side: Side::Far, point, offset };
-        points::surely(line, Format::F64, self.t.hi, crossing)
+        points::surely(line, format, t, crossing)
     }
 }
 
@@ -218,10 +224,18 @@ pub(super) struct Correction {
     radius_splitter: f64,
 }
 
+impl Setting {
+    /// What the correction of either root needs.
+    #[inline(always)]
+    pub(super) fn correction(&self, chord: &Chord<f64>) -> Correction {
+        Correction::new(self.line, self.o, chord, self.radius_squared)
+    }
+}
+
 impl Correction {
     /// With o rounded.
     #[inline(always)]
-    pub(super) fn new(line: Line, o: DVec3, chord: &Chord<f64>, radius_squared: f64) -> Self {
+    fn new(line: Line, o: DVec3, chord: &Chord<f64>, radius_squared: f64) -> Self {
         let Chord { a, distance_squared, .. } = *chord;
         let larger =
             if distance_squared > radius_squared { distance_squared } else { radius_squared };

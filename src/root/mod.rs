@@ -9,7 +9,7 @@
 //! |:--|:--|:--|:--|:--|
 //! | [`plain`] | `f64` | one bound for all cases | hit, miss and root in `f32`; hit and miss in `f64` | 7, "inside" in `f32` |
 //! | [`halves`] | `f64`, exact in the leading 26 bits | one bound for all cases | the root in `f64` | 22, "inside" in `f64` |
-//! | again | `f64` with a finer power, or by the closest approach with a bound of the case ([`bounded_chord`]) | the same | `f32` close to the surface and from afar | 13, "on the surface" in `f32` |
+//! | [`again`] | `f64` with a finer power, or by the closest approach with a bound of the case ([`bounded_chord`]) | the same | `f32` close to the surface and from afar | 13, "on the surface" in `f32` |
 //! | [`near_surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface | 54, "on the surface" in `f64` |
 //! | [`moved_origin`] | offsets and powers in pairs of `f64`, the rest in `f64` | a bound of the case | the limb, and from afar in `f64` | 86, "at the limb from afar" in `f64` |
 //! | [`integers`] | integers of 64 bits, products of 256 ([`narrow`]) | exact | tangents, ties | 173 and 171, "exact tangent" |
@@ -43,6 +43,7 @@
 //! ([`points`], with the help of [`ties`]). So all these steps answer alike, bit for bit, and those between the first and the
 //! last can be left out where there is no room for their code ([`Format::has_few_steps`]).
 
+mod again;
 mod answer;
 mod bounded_chord;
 pub(crate) mod chord;
@@ -56,6 +57,7 @@ mod narrow;
 mod near_surface;
 pub(crate) mod order;
 mod plain;
+mod plain_single;
 mod points;
 mod power;
 pub(crate) mod precision;

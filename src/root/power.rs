@@ -46,29 +46,33 @@ pub(super) fn accurate_power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) 
     if power.hi.abs() > CLOSE * larger {
         return (power, POWER_ERROR * larger);
     }
-    let terms = Terms::new(exact_o, radius);
-    let (power, ..) = terms.sum();
+    let (power, rest) = Terms::new(exact_o, radius).sum();
     if power.hi.abs() > CLOSER * larger {
         return (power, CLOSE_ERROR * larger + 2.0 * V * power.hi.abs());
     }
-    closest_power(exact_o, radius)
+    (power, closest_error(exact_o, radius, power, rest))
 }
 
 /// The same, with an error of what there is of a rest: for where the power is likely to be 0, or next to it.
-///
-/// It is 0 for sure only where every term is exact: where o is a number in each coordinate, and no square underflows.
-#[cold]
-#[inline(never)]
+#[inline(always)]
 pub(super) fn closest_power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
+    let (power, rest) = Terms::new(exact_o, radius).sum();
+    (power, closest_error(exact_o, radius, power, rest))
+}
+
+/// The error by what there is of a rest, the sum of whose magnitudes is given.
+///
+/// The power is 0 for sure only where every term is exact: where o is a number in each coordinate, and no square underflows.
+#[inline(always)]
+fn closest_error(exact_o: Triple<Pair>, radius: f64, power: Pair, rest: f64) -> f64 {
     /// Of the rest's terms. The first of the low sums' errors passes most additions: 8 of the others, that of the smaller terms,
     /// and that to the low part of the whole, 10 in all. The magnitudes are rounded as often, which is of the second order.
     const REST_ERROR: f64 = 16.0 * U;
-    let (power, rest) = Terms::new(exact_o, radius).sum();
     let Triple { x, y, z } = exact_o.map(|o| o.lo == 0.0 && is_whole(o.hi));
     let is_zero = power.hi == 0.0 && rest == 0.0 && is_whole(radius) && x && y && z;
     // The least is for what may underflow.
     let error = REST_ERROR * rest + 2.0 * V * power.hi.abs() + f64::MIN_POSITIVE;
-    (power, if is_zero { 0.0 } else { error })
+    if is_zero { 0.0 } else { error }
 }
 
 /// The terms of o·o - r².

@@ -68,7 +68,7 @@ pub(super) fn single(numbers: [f64; 10]) -> [f64; 10] {
 
 fn numbers_of(Line { origin, direction, center, radius }: &Line) -> [f64; 10] {
     let [[cx, cy, cz], [px, py, pz], [dx, dy, dz]] =
-        [center, origin, direction].map(|vector| vector.to_array());
+        [center, origin, direction].map(DVec3::to_array);
     [cx, cy, cz, px, py, pz, dx, dy, dz, *radius]
 }
 
