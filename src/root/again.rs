@@ -8,12 +8,11 @@ use super::ask_carefully;
 use super::bounded_chord::Bounded;
 use super::chord::Chord;
 use super::format::Format;
-use super::halves;
 use super::line::{Line, Setting};
 use super::near_surface::from_the_surface;
 use super::plain::{self, Both, Nearest};
 use super::plain_single::{CLEAR, MARGIN, NEAR, surely_rounded};
-use super::ties;
+use super::{power, ties};
 use crate::algebraic::Quadratic;
 use crate::arithmetic::comparison::{exceeds, is_not_positive};
 use crate::arithmetic::rounding::rounds_safely;
@@ -29,7 +28,7 @@ pub(super) mod tests;
 fn fine_power(setting: &Setting, chord: &Chord<f64>) -> f64 {
     let (square, other) = (chord.distance_squared, setting.radius_squared);
     let larger = if square > other { square } else { other };
-    once_if(Format::F32.has_few_steps(), || halves::power(setting.line, setting.o, larger))
+    once_if(Format::F32.has_few_steps(), || power::power_in_halves(setting.line, setting.o, larger))
 }
 
 /// The nearest root ahead by the plain step; asked a second time, with a finer power.

@@ -31,14 +31,6 @@ fn nearest_again(line: &Line, range: Range<f64>) -> Option<Found> {
 }
 
 impl Precision for DVec3 {
-    const UNIT_ULP: f64 = f64::EPSILON;
-    const LEAST_POSITIVE: f64 = f64::from_bits(1);
-
-    #[inline(always)]
-    fn next_above(t: f64) -> f64 {
-        f64::from_bits(t.to_bits().wrapping_add(1))
-    }
-
     #[inline(always)]
     fn intersect<D: Derivation>(
         sphere: &Sphere<Self>,

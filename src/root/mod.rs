@@ -3,7 +3,7 @@
 //! A [`chord`] is what both derivations find of a [`line`](mod@line) and a sphere: how far away the line passes, and where. The
 //! way from there to the root reads downwards in this table; [`single`] and [`double`] are where it begins, in the user's code,
 //! and from [`moved_origin`] on it is one function for both precisions. [`power`] has o·o - r² where nearly all of it cancels,
-//! [`format`](mod@format) rounds, [`points`] finds points and normals, and [`answer`] chooses the root that a ray hits.
+//! [`ziv`] rounds to a [`format`](mod@format), [`points`] finds points and normals, and [`answer`] chooses the root that a ray hits.
 //!
 //! | step | arithmetic | error known by | decides | ns, of a family |
 //! |:--|:--|:--|:--|:--|
@@ -66,6 +66,7 @@ mod single;
 mod surds;
 mod ties;
 mod unit;
+mod ziv;
 
 pub(crate) use answer::Side;
 use answer::{Answer, Question, Verdict};

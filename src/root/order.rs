@@ -26,6 +26,7 @@ use super::unit::Unit;
 use crate::arithmetic::integer::{Integer, PLACES, Shifted};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::U;
+use crate::arithmetic::rounding::RoundDown;
 use crate::float::sqrt;
 use crate::sealed::{Internal, Operation};
 use crate::{Ray, Sphere, Vector};
@@ -91,7 +92,7 @@ impl<V: Vector> Operation<V> for NextAbove<V::Scalar> {
     where
         V: Internal,
     {
-        V::next_above(self.0)
+        self.0.next_above()
     }
 }
 

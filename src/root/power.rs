@@ -1,9 +1,12 @@
-//! o·o - r², the power of a line's origin, where nearly all of it cancels: in pairs, in three floats, and as closely as floats
-//! go.
+//! o·o - r², the power of a line's origin, where nearly all of it cancels: in halves of 26 bits, in pairs, in three floats, and as
+//! closely as floats go.
 //!
-//! In plain `f64` it is part of a [`chord`](super::chord), in halves of 26 bits it is in [`halves`](super::halves), and exact
-//! integers of it are in `narrow` and `surds`.
+//! In plain `f64` it is part of a [`chord`](super::chord), and exact integers of it are in `narrow` and `surds`.
 
+use glam::DVec3;
+
+use super::line::Line;
+use crate::arithmetic::half::{Half, Halves, splitter};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
     Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum,
@@ -11,6 +14,27 @@ use crate::arithmetic::pair::{
 
 #[cfg(test)]
 mod tests;
+
+/// From the ray's origin to the center in halves: `o` is that rounded, and what was rounded goes into the low part.
+#[inline(always)]
+pub(super) fn to_center(line: Line, o: DVec3, splitter: f64) -> Halves {
+    let Halves { high, low } = Halves::new(o, splitter);
+    let rounded = DVec3::from(line.o().map(|o| o.lo));
+    Halves { high, low: low + rounded }
+}
+
+/// o·o - r² in halves, off by at most 2⁻⁷⁶ m besides the rounding of the result, with `o` rounded and m as `larger`.
+///
+/// The sum of high parts is exact. What is rounded are o.low, 2⁻⁸⁰ of |o|, and the products and sums with low parts, of at most
+/// 2⁻²⁵ m each.
+#[inline(always)]
+pub(super) fn power_in_halves(line: Line, o: DVec3, larger: f64) -> f64 {
+    let splitter = splitter(larger);
+    let Halves { high, low } = to_center(line, o, splitter);
+    let radius = Half::new(line.radius, splitter);
+    let leading = high.dot(high) - radius.high * radius.high;
+    leading + (low.dot(o + high) - radius.low * (line.radius + radius.high))
+}
 
 /// Of the power in pairs, in m.
 ///

@@ -89,14 +89,6 @@ fn intersect_by_a_call<D: Derivation>(
 }
 
 impl Precision for Vec3 {
-    const UNIT_ULP: f64 = f32::EPSILON as f64;
-    const LEAST_POSITIVE: f64 = f32::from_bits(1) as f64;
-
-    #[inline(always)]
-    fn next_above(t: f32) -> f32 {
-        f32::from_bits(t.to_bits().wrapping_add(1))
-    }
-
     #[inline(always)]
     fn intersect<D: Derivation>(sphere: &Sphere, ray: &Ray, range: Range<f32>) -> Option<Hit> {
         if HAS_F64 {
