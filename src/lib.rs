@@ -127,6 +127,7 @@ mod geometric;
 mod hit;
 mod hittable;
 mod nearest;
+mod order;
 mod ray;
 mod rejection;
 mod root;

@@ -45,17 +45,16 @@
 
 mod again;
 mod answer;
-mod bounded_chord;
+pub(crate) mod bounded_chord;
 pub(crate) mod chord;
 mod double;
 mod format;
 mod halves;
 mod integers;
-mod line;
-mod moved_origin;
+pub(crate) mod line;
+pub(crate) mod moved_origin;
 mod narrow;
 mod near_surface;
-pub(crate) mod order;
 mod plain;
 mod plain_single;
 mod points;
@@ -63,9 +62,9 @@ mod power;
 pub(crate) mod precision;
 mod scaled_line;
 mod single;
-mod surds;
+pub(crate) mod surds;
 mod ties;
-mod unit;
+pub(crate) mod unit;
 mod ziv;
 
 pub(crate) use answer::Side;

@@ -115,7 +115,7 @@ pub(super) struct InPairs<'a> {
 
 /// w = t d - o. Where it is next to nothing beside o, the low part need not be small beside the high one.
 #[inline(always)]
-pub(super) fn offset(o: Triple<Pair>, d: Triple<f64>, t: f64) -> Triple<Pair> {
+pub(crate) fn offset(o: Triple<Pair>, d: Triple<f64>, t: f64) -> Triple<Pair> {
     o.zip(d, |o, d| {
         let step = two_product(t, d);
         let high = two_difference(step.hi, o.hi);

@@ -196,7 +196,7 @@ struct InSurds<'m> {
 
 /// Computes a, h and the discriminant of a line in these units of lengths and of directions, with memory for o, d and the power.
 #[inline(never)]
-pub(super) fn compute_chord(
+pub(crate) fn compute_chord(
     line: &Line,
     [length, direction]: [Unit; 2],
     [a, h, discriminant]: [&mut Integer; 3],

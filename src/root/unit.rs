@@ -7,9 +7,9 @@ use crate::arithmetic::scaling::integer_and_exponent;
 
 /// The unit of integers, 2^`exponent`, and how many binary places the largest of them has.
 #[derive(Clone, Copy)]
-pub(super) struct Unit {
-    pub(super) exponent: i32,
-    pub(super) places: u32,
+pub(crate) struct Unit {
+    pub(crate) exponent: i32,
+    pub(crate) places: u32,
 }
 
 impl Unit {
@@ -20,7 +20,7 @@ impl Unit {
 
     /// The largest power of two that all coordinates are multiples of, any if these are zeros; `None` where one is not finite.
     #[inline(never)]
-    pub(super) fn common(vectors: &[DVec3]) -> Option<Self> {
+    pub(crate) fn common(vectors: &[DVec3]) -> Option<Self> {
         /// The exponent of the last place of the largest number.
         const LARGEST: i32 = 971;
         let (mut unit, mut top) = (LARGEST, LARGEST);

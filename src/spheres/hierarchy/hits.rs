@@ -10,7 +10,7 @@ use super::build::number;
 use super::leaf::{Leaf, NONE};
 use super::walk::{Enter, Query, allows};
 use super::{LEAF, Tree};
-use crate::root::order::next_above;
+use crate::order::next_above;
 use crate::spheres::crossings::{Crossings, Places};
 use crate::spheres::lanes::Lanes;
 use crate::spheres::queue::Queue;
