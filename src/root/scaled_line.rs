@@ -9,13 +9,20 @@ use crate::arithmetic::scaling::{exponent, scale};
 #[cfg(test)]
 mod tests;
 
+/// 2⁻⁹⁶⁰: a number below that may have lost digits when it was divided by a power of two, and is replaced.
+const TINY: f64 = f64::from_bits((1023 - 960) << 52);
+
+/// 2⁻¹⁰⁰⁰, what replaces it; three times as much in the center, so that its difference from the origin is not zero.
+const ONE_TINY: f64 = f64::from_bits((1023 - 1000) << 52);
+
 /// A line whose lengths and directions are divided by powers of two.
 pub(super) struct Scaled {
     pub(super) line: Line,
     length_exponent: i32,
     direction_exponent: i32,
-    /// Whether no number was rounded. One that was is so far below the largest of its kind that what it was rounded by is next to
-    /// nothing beside the error bounds of any step in pairs, and integers of a few hundred places have no room for it.
+    /// Whether no number had to be replaced. One that was is so far below the largest of its kind that the difference is next to
+    /// nothing beside the error bounds of any step in pairs. No step takes it for exact: integers of a few hundred places have no
+    /// room for it, its square underflows, and it is neither 0 nor what it is subtracted from.
     is_exact: bool,
 }
 
@@ -37,13 +44,25 @@ impl Scaled {
             let line = *line;
             return Some(Self { line, length_exponent: 0, direction_exponent: 0, is_exact: true });
         }
-        let scaled = times(line, -length, -direction);
+        let mut is_exact = true;
+        let mut divided = |x: f64, exponent: i32, stand_in: f64| {
+            let scaled = scale(x, -exponent);
+            let is_tiny = x != 0.0 && scaled.abs() < TINY;
+            is_exact &= !is_tiny;
+            if is_tiny { stand_in.copysign(x) } else { scaled }
+        };
+        let scaled = Line {
+            origin: line.origin.map(|x| divided(x, length, ONE_TINY)),
+            direction: line.direction.map(|x| divided(x, direction, ONE_TINY)),
+            center: line.center.map(|x| divided(x, length, 3.0 * ONE_TINY)),
+            radius: divided(line.radius, length, ONE_TINY),
+        };
         let is_finite = scaled.origin.is_finite() && scaled.center.is_finite();
-        is_finite.then(|| Self {
+        is_finite.then_some(Self {
             line: scaled,
             length_exponent: length,
             direction_exponent: direction,
-            is_exact: times(&scaled, length, direction) == *line,
+            is_exact,
         })
     }
 
@@ -54,24 +73,8 @@ impl Scaled {
     }
 }
 
-/// The line with lengths times 2^`length` and the direction times 2^`direction`. What is below the normal numbers is rounded, but
-/// not to zero.
-fn times(line: &Line, length: i32, direction: i32) -> Line {
-    let scale = |x: f64, e: i32| {
-        let scaled = scale(x, e);
-        if scaled == 0.0 && x != 0.0 { f64::MIN_POSITIVE.copysign(x) } else { scaled }
-    };
-    let lengths = |vector: DVec3| vector.map(|x| scale(x, length));
-    Line {
-        origin: lengths(line.origin),
-        direction: line.direction.map(|x| scale(x, direction)),
-        center: lengths(line.center),
-        radius: scale(line.radius, length),
-    }
-}
-
 /// Crossings in the caller's units. In doubt where a root or a coordinate has fewer digits there, and where a point depends on
-/// a number that was rounded.
+/// a number that was replaced.
 pub(super) struct Unscaled<'a, C> {
     crossings: C,
     scaled: &'a Scaled,

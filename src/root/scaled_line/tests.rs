@@ -2,6 +2,17 @@ use super::*;
 use crate::root::tests::line;
 use crate::testing::{Lie, Random, setting};
 
+/// The line with lengths times 2^`length` and the direction times 2^`direction`.
+fn times(line: &Line, length: i32, direction: i32) -> Line {
+    let lengths = |vector: DVec3| vector.map(|x| scale(x, length));
+    Line {
+        origin: lengths(line.origin),
+        direction: line.direction.map(|x| scale(x, direction)),
+        center: lengths(line.center),
+        radius: scale(line.radius, length),
+    }
+}
+
 /// A step that knows these crossings.
 struct Known([f64; 2], Found);
 
@@ -57,7 +68,11 @@ fn what_loses_digits_is_left_to_the_last_step() {
     let scaled = |numbers| Scaled::new(&line(numbers));
     let line = |size: f64| [5.0 * size, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, size];
     assert!(scaled(line(1.0)).is_some() && scaled(line(1e-300)).is_some());
-    // A coordinate that is rounded, and one that overflows.
+    // Coordinates that are replaced, with a difference that is not zero, and one that overflows.
+    let tiny = 1e-316;
+    let replaced =
+        scaled([1e131, 0.0, tiny, 0.0, 0.0, tiny, 1.0, 0.0, 0.0, 1e115]).expect("finite");
+    assert!(!replaced.is_exact && replaced.line.o().z.hi > 0.0);
     let rounded = scaled([1e300, -1e-200, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0]).expect("finite");
     assert!(!rounded.is_exact && rounded.line.center.y < 0.0);
     let found = Found { t: 1.0, point: DVec3::ONE, normal: DVec3::X };
