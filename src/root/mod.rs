@@ -2,17 +2,18 @@
 //!
 //! A [`chord`] is what both derivations find of a [`line`](mod@line) and a sphere: how far away the line passes, and where. The
 //! way from there to the root reads downwards in this table; [`single`] and [`double`] are where it begins, in the user's code,
-//! and from [`moved_origin`] on it is one function for both precisions. [`power`] has o·o - r² where nearly all of it cancels,
-//! [`ziv`] rounds to a [`format`](mod@format), [`points`] finds points and normals, and [`answer`] chooses the root that a ray hits.
+//! and from [`moved_origin`] on, for a line brought near 1 ([`scaled_line`]), it is one function for both precisions. [`power`] has
+//! o·o - r² where nearly all of it cancels, [`ziv`] rounds to a [`format`](mod@format), [`ties`] compares with the number midway
+//! between two floats, [`points`] finds points and normals, and [`answer`] chooses the root that a ray hits.
 //!
 //! | step | arithmetic | error known by | decides | ns, of a family |
 //! |:--|:--|:--|:--|:--|
 //! | [`plain`] | `f64` | one bound for all cases | hit, miss and root in `f32`; hit and miss in `f64` | 7, "inside" in `f32` |
 //! | [`halves`] | `f64`, exact in the leading 26 bits | one bound for all cases | the root in `f64` | 22, "inside" in `f64` |
 //! | [`again`] | `f64` with a finer power, or by the closest approach with a bound of the case ([`bounded_chord`]) | the same | `f32` close to the surface and from afar | 13, "on the surface" in `f32` |
-//! | [`near_surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface | 54, "on the surface" in `f64` |
+//! | [`near_surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface, `f32` exactly on it | 54, "on the surface" in `f64` |
 //! | [`moved_origin`] | offsets and powers in pairs of `f64`, the rest in `f64` | a bound of the case | the limb, and from afar in `f64` | 86, "at the limb from afar" in `f64` |
-//! | [`integers`] | integers of 64 bits, products of 256 ([`narrow`]) | exact | tangents, ties | 173 and 171, "exact tangent" |
+//! | [`integers`] | integers of 64 bits, products of 256 ([`narrow`]) | exact | tangents | 173 and 171, "exact tangent" |
 //! | [`surds`] | integers of many digits | exact | coordinates that span more places, points next to a midpoint or to zero | 1,452, "tie of a tiny sphere" in `f64` |
 //!
 //! How many in a hundred each decides (`cargo test --release --lib how_often -- --nocapture` has every family; "again" counts
@@ -39,8 +40,7 @@
 //! A step that is not certain hands over to the next, and so does one that is certain of the root but not of the point. No step
 //! assumes what another has found, so each can be tested by itself.
 //!
-//! From [`near_surface`] on, and where a line starts exactly on the surface, the points and normals are correctly rounded, too
-//! ([`points`], with the help of [`ties`]). So all these steps answer alike, bit for bit, and those between the first and the
+//! From [`near_surface`] on, the points and normals are correctly rounded, too. So all these steps answer alike, bit for bit, and those between the first and the
 //! last can be left out where there is no room for their code ([`Format::has_few_steps`]).
 
 mod again;

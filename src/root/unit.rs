@@ -23,8 +23,7 @@ impl Unit {
     pub(crate) fn common(vectors: &[DVec3]) -> Option<Self> {
         /// The exponent of the last place of the largest number.
         const LARGEST: i32 = 971;
-        let (mut unit, mut top) = (LARGEST, LARGEST);
-        let mut is_first = true;
+        let (mut unit, mut top) = (LARGEST, i32::MIN);
         for vector in vectors {
             for coordinate in vector.to_array() {
                 let (integer, exponent) = integer_and_exponent(coordinate);
@@ -37,12 +36,11 @@ impl Unit {
                         [integer.trailing_zeros(), u64::BITS - integer.leading_zeros()]
                             .map(|places| places as i32);
                     unit = unit.min(exponent + zeros);
-                    top = if is_first { exponent + bits } else { top.max(exponent + bits) };
-                    is_first = false;
+                    top = top.max(exponent + bits);
                 }
             }
         }
-        Some(Self { exponent: unit, places: (top - unit).max(0).unsigned_abs() })
+        Some(Self { exponent: unit, places: top.saturating_sub(unit).max(0).unsigned_abs() })
     }
 
     /// Those of the lengths and of the direction of a line.
