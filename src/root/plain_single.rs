@@ -53,7 +53,7 @@ impl Setting {
     /// What the foot is off by along d counts in l² only by its square, which is next to nothing.
     ///
     /// A root of the plain step has l > 2⁻¹⁶ |o|, and both the foot and l are off by less than 2⁻³¹ r. The other roots are those
-    /// of [`half_chord_from_afar`], whose bounds include these. The far crossing is as far from the foot as the near one.
+    /// of [`again`](super::again), whose bounds include these. The far crossing is as far from the foot as the near one.
     #[inline(always)]
     pub(super) fn found_from_afar(&self, chord: &Chord<f64>, side: Side, rounded: f32) -> Found {
         let Self { line, o, radius_squared } = *self;
