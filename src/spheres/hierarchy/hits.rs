@@ -6,10 +6,11 @@
 
 use core::ops::Range;
 
-use super::build::number;
+use super::boxes::LEAF;
 use super::leaf::{Leaf, NONE};
+use super::number::number;
+use super::tree::Tree;
 use super::walk::{Enter, Query, allows};
-use super::{LEAF, Tree};
 use crate::root::order::next_above;
 use crate::spheres::crossings::{Crossings, Places};
 use crate::spheres::lanes::Lanes;
@@ -71,7 +72,7 @@ pub(in crate::spheres) struct Hits<'a, V: Vector> {
 
 impl<'a, V: Vector> Hits<'a, V> {
     #[inline(always)]
-    pub(super) fn new(
+    pub(in crate::spheres) fn new(
         tree: &'a Tree<V>,
         lanes: Lanes,
         ray: &Ray<V>,

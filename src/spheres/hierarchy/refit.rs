@@ -10,10 +10,10 @@ use alloc::vec::Vec;
 use glam::Vec3;
 
 use super::bounds::Bounds;
-use super::boxes::{Boxes, LEAST_COORDINATE};
-use super::build::number;
+use super::boxes::{Boxes, LEAF, LEAST_COORDINATE};
 use super::leaf::NONE;
-use super::{LEAF, Tree};
+use super::number::number;
+use super::tree::Tree;
 use crate::rejection::can_be_hit;
 use crate::spheres::filter::is_in_reach;
 use crate::spheres::lanes::LANES;
