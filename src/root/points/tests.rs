@@ -191,3 +191,40 @@ fn a_normal_is_the_quotient_rounded_or_zero() {
         assert_eq!(found, exact_normal::<f64>(offset, radius), "{offset:e} / {radius}");
     }
 }
+
+/// The hit at a point in these units and at an offset, known as well as that, of a sphere of radius 5 and a line along no axis.
+fn found_at(point: [f64; 3], units: [i32; 3], offset: [f64; 3], error: f64) -> Option<Found> {
+    let line = Line { direction: DVec3::ONE, ..line(1.0) };
+    let near = |[x, y, z]: [f64; 3]| Near::within(Triple { x, y, z }.map(Pair::from), error);
+    let [x, y, z] = units;
+    let (point, offset) = (near(point), near(offset));
+    let crossing =
+        Crossing { side: Side::Near, point, units: Triple { x, y, z }, offset, radius: 5.0 };
+    surely(line, Format::F64, 1.0, crossing)
+}
+
+#[test]
+fn each_coordinate_of_a_point_is_in_units_of_its_own() {
+    let point = [1.5, -1.25, 1.75];
+    for unit in [-1000, -300, 300, 1000] {
+        for axes in 0..8 {
+            let units = [1, 2, 4].map(|axis| if axes & axis == 0 { 0 } else { unit });
+            let found = found_at(point, units, point, 1e-25).expect("certain");
+            let expected = [0, 1, 2].map(|axis| scale(point[axis], units[axis]));
+            assert_eq!(found.point.to_array(), expected, "{units:?}");
+            assert_eq!(found.normal, DVec3::from(point) / 5.0, "{units:?}");
+        }
+    }
+}
+
+#[test]
+fn a_coordinate_of_a_normal_that_is_next_to_nothing_is_zero() {
+    let point = [1.5, -1.25, 1.75];
+    for axes in 0..8 {
+        let offset = [1, 2, 4].map(|axis| if axes & axis == 0 { 2.5 } else { 1e-27 });
+        let found = found_at(point, [0; 3], offset, 1e-50).expect("certain");
+        let expected = offset.map(|x| if x == 2.5 { 0.5 } else { 0.0 });
+        assert_eq!(found.normal.to_array(), expected);
+        assert_eq!(found.point.to_array(), point);
+    }
+}
