@@ -1,7 +1,9 @@
 use glam::{DVec3, Vec3};
 
 use super::*;
-use crate::testing::{Dyadic, ExactChord, Random};
+use crate::Scalar;
+use crate::testing::support::oracle::{Coordinates, Truth};
+use crate::testing::{Dyadic, ExactChord, Float, Random, Root};
 
 /// A ray and two crossings in `f64`, which holds those of `f32` too.
 type Pair = (Ray<DVec3>, [(Sphere<DVec3>, Side); 2]);
@@ -337,4 +339,129 @@ fn roots_from_close_by_are_within_their_bound() {
     }
     println!("{worst:.3} of the bound");
     assert!(worst > 0.02, "{worst}: the bound is far too wide");
+}
+
+/// The first crossing of a sphere whose exact root rounds to `t`.
+fn crossing_at<V: Coordinates>(truth: Option<&Truth<V>>, t: V::Scalar) -> Option<(Side, &Root)> {
+    let mut roots = SIDES.into_iter().zip(&truth?.roots);
+    roots.find(|(_, root)| root.nearest::<V::Scalar>().identical(t))
+}
+
+/// Compares hits of two spheres at each of their roots with the exact order: that of t, of equal ones that of the exact roots, and
+/// of equal ones, or where one sphere has no root at all, that of the indices. Returns how many hits at one t are in the order of
+/// their exact roots.
+#[track_caller]
+fn check_hits<V: Coordinates>(ray: &Ray<V>, spheres: [Sphere<V>; 2]) -> usize {
+    let truths = spheres.map(|sphere| Truth::new(ray, &sphere));
+    let roots = truths.iter().flatten().flat_map(|truth| &truth.roots);
+    let times =
+        roots.map(Root::nearest::<V::Scalar>).filter(|t| *t > V::Scalar::ZERO && t.is_finite());
+    let mut told_apart = 0;
+    for t in times {
+        let case = || format!("{t} {ray:?} {spheres:?}");
+        let crossings = truths.each_ref().map(|truth| crossing_at(truth.as_ref(), t));
+        for ((sphere, truth), crossing) in spheres.iter().zip(&truths).zip(&crossings) {
+            let side = crossing.map(|(side, _)| side);
+            if side.is_some() || truth.is_none() {
+                assert_eq!(Known::new(ray, sphere, t).side_at(ray, t), side, "{}", case());
+            }
+        }
+        let order = match (crossings, &truths) {
+            ([Some((_, first)), Some((_, second))], _) => first.order(second),
+            (_, [None, _] | [_, None]) => Ordering::Equal,
+            _ => continue,
+        };
+        told_apart += usize::from(order.is_ne());
+        for [first, second] in [[0, 1], [1, 0]] {
+            let expected = order.then(first.cmp(&second)).is_lt();
+            let is_first = |spheres| is_nearer(ray, (first, t), (second, t), || spheres);
+            assert_eq!(is_first(spheres.map(Some)), expected, "{}", case());
+            // Where one is no sphere, the lower index is first.
+            for spheres in [[None, None], [Some(spheres[0]), None], [None, Some(spheres[1])]] {
+                assert_eq!(is_first(spheres), first < second, "{}", case());
+            }
+            // Another t tells by itself, and the spheres are not asked for.
+            let next = next_above::<V>(t);
+            assert_eq!(next.ordinal(), t.ordinal() + 1);
+            let unasked = || -> [Option<Sphere<V>>; 2] { panic!("{}", case()) };
+            assert!(is_nearer(ray, (first, t), (second, next), unasked), "{}", case());
+            assert!(!is_nearer(ray, (first, next), (second, t), unasked), "{}", case());
+        }
+    }
+    told_apart
+}
+
+/// The numbers of a pair in either precision.
+fn check_hits_in_both((ray, crossings): &Pair) -> [usize; 2] {
+    let spheres = [crossings[0].0, crossings[1].0];
+    let (single_ray, single_crossings) = single(&(*ray, *crossings));
+    let single_ray = Ray::new(single_ray.origin.as_vec3(), single_ray.direction.as_vec3());
+    let single_spheres = single_crossings
+        .map(|(sphere, _)| Sphere::new(sphere.center.as_vec3(), f32::from_f64(sphere.radius)));
+    [check_hits(&single_ray, single_spheres), check_hits(ray, spheres)]
+}
+
+/// Spheres of up to a few ulps around a point on the x axis, whose coordinate is a power of two or any: a root below a power of
+/// two rounds to it only from half as far.
+fn as_small_as_an_ulp(random: &mut Random) -> Pair {
+    let exponent = random.integer(-20..=20);
+    let point = 2_f64.powi(exponent) * [1.0, random.mantissa()][random.below(2)];
+    let digits = [23, 52][random.below(2)];
+    let ulp = 2_f64.powi(exponent - digits);
+    let point = (point / ulp).floor() * ulp;
+    let ray = Ray::new(DVec3::NEG_X * point, DVec3::X);
+    let crossings = [0; 2].map(|_| {
+        let eighths =
+            |random: &mut Random, most: i32| f64::from(random.integer(-most..=most)) / 8.0;
+        let across = eighths(random, 4) * ulp * 2_f64.powi(random.integer(-20..=0));
+        let along = eighths(random, 12) * ulp;
+        let radius = eighths(random, 8).abs() * ulp + across.abs();
+        (Sphere::new(DVec3::new(along, across, 0.0), radius), Side::Near)
+    });
+    (ray, crossings)
+}
+
+#[test]
+fn of_hits_at_one_t_the_first_by_exact_roots_is_nearer() {
+    let mut random = Random::new(6);
+    let mut told_apart = [0; 2];
+    let mut check = |pair: &Pair| {
+        for (all, these) in told_apart.iter_mut().zip(check_hits_in_both(pair)) {
+            *all += these;
+        }
+    };
+    for case in 0..1_200 {
+        let pair = match case % 4 {
+            0 | 1 => as_small_as_an_ulp(&mut random),
+            2 => through_one_point(&mut random),
+            _ => {
+                let distance = 10_f64.powi(random.integer(6..=16));
+                near_one_point(&mut random, distance)
+            }
+        };
+        check(&pair);
+    }
+    println!("{told_apart:?} ties, in f32 and in f64, are told apart");
+    assert!(told_apart.iter().all(|count| *count > 200), "{told_apart:?}");
+}
+
+/// The float after the largest one is infinite, and tells no ulp.
+#[test]
+fn hits_at_the_largest_t_are_in_order() {
+    let mut random = Random::new(7);
+    let mut told_apart = 0;
+    for _ in 0..200 {
+        // Of f32, a distance of 2⁶⁴ and less than that by some ulps.
+        let direction = Vec3::X * 2_f32.powi(-64);
+        let ray = Ray::new(Vec3::NEG_X * 2_f32.powi(64), direction);
+        let spheres = [0; 2].map(|_| {
+            let ulps = |random: &mut Random| {
+                f32::from_f64(f64::from(random.integer(-8..=8))) * 2_f32.powi(38)
+            };
+            let center = Vec3::new(ulps(&mut random), ulps(&mut random), 0.0);
+            Sphere::new(center, ulps(&mut random).abs() + center.y.abs())
+        });
+        told_apart += check_hits(&ray, spheres);
+    }
+    assert!(told_apart > 20, "{told_apart}");
 }

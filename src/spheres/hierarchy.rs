@@ -6,10 +6,12 @@ mod build;
 mod frustum;
 mod hits;
 mod leaf;
+mod number;
 mod packet;
 mod refit;
 mod region;
 mod split;
+mod tree;
 mod visits;
 mod walk;
 mod wide;
@@ -20,12 +22,10 @@ use core::iter::FusedIterator;
 use core::ops::Range;
 
 use bounds::Bounds;
-use boxes::Boxes;
 use build::is_tree;
 use glam::Vec3;
 pub(super) use hits::Hits;
-use leaf::Leaf;
-use region::Region;
+use tree::Tree;
 
 use super::Spheres;
 use super::lanes::Lanes;
@@ -84,30 +84,6 @@ pub(super) enum Shape<V: Vector> {
     Scan(Spheres<V>),
     Tree(Tree<V>),
 }
-
-/// The spheres in leaves of up to 16, and the leaves in boxes, up to 16 to a node. The children of a node lie together: first its
-/// leaves among all leaves, then its nodes among all nodes.
-#[derive(Clone, Debug)]
-pub(super) struct Tree<V: Vector> {
-    leaves: Vec<Leaf<V::Scalar>>,
-    nodes: Vec<Boxes>,
-    /// The whole tree, where a ray begins, and the parts of it that have coordinates of their own. There are none without
-    /// spheres.
-    regions: Vec<Region<V>>,
-    /// The spheres whose boxes would make those of all others useless, and what cannot be computed with, by ascending index.
-    apart: Spheres<V>,
-    /// Their indices.
-    apart_indices: Vec<u32>,
-    /// The spheres that nothing can meet.
-    unreachable: Vec<Sphere<V>>,
-    /// Where each sphere is: in a lane of a leaf, or else behind them, apart, or else unreachable.
-    places: Vec<u32>,
-    /// The sizes of boxes as they were built, once spheres have moved.
-    sizes: Vec<f32>,
-}
-
-/// The bit that tells the number of a leaf from that of a node.
-const LEAF: u32 = 1 << 31;
 
 impl<V: Vector> SphereBvh<V> {
     /// Builds the hierarchy of spheres. The index of each is its place in the slice.
@@ -224,22 +200,6 @@ impl<V: Vector> SphereBvh<V> {
         }
     }
 
-    /// [`hits`](Self::hits) with that set of instructions.
-    #[inline(always)]
-    pub(super) fn hits_in_lanes(
-        &self,
-        lanes: Lanes,
-        ray: &Ray<V>,
-        range: Range<V::Scalar>,
-    ) -> super::hits::Hits<'_, V> {
-        match &self.0 {
-            Shape::Scan(spheres) => {
-                super::hits::Hits::Scan(spheres.hits_in_lanes(lanes, ray, range))
-            }
-            Shape::Tree(tree) => super::hits::Hits::Tree(Hits::new(tree, lanes, ray, range)),
-        }
-    }
-
     /// A tree, however few the spheres are.
     #[cfg(test)]
     pub(super) fn tree(spheres: &Spheres<V>) -> Self {
@@ -278,23 +238,6 @@ impl<V: Vector> SphereBvh<V> {
             Shape::Scan(spheres) => spheres.occludes_in_lanes(lanes, ray, range),
             Shape::Tree(tree) => tree.occludes(lanes, ray, range),
         }
-    }
-}
-
-impl<V: Vector> Tree<V> {
-    /// The sphere at `index`.
-    fn get(&self, index: usize) -> Option<Sphere<V>> {
-        self.at_place(*self.places.get(index)?)
-    }
-
-    /// The sphere at one of the `places`.
-    fn at_place(&self, place: u32) -> Option<Sphere<V>> {
-        let place = place as usize;
-        if let Some(leaf) = self.leaves.get(place / Leaf::<V::Scalar>::LANES) {
-            return Some(leaf.sphere(place % Leaf::<V::Scalar>::LANES));
-        }
-        let place = place - self.leaves.len() * Leaf::<V::Scalar>::LANES;
-        self.apart.get(place).or_else(|| self.unreachable.get(place - self.apart.len()).copied())
     }
 }
 

@@ -4,7 +4,7 @@ use core::iter::FusedIterator;
 use core::ops::Range;
 
 use super::crossings::Crossings;
-use super::hierarchy;
+use super::hierarchy::{self, Shape};
 use super::lanes::Lanes;
 use super::{SphereBvh, Spheres};
 use crate::{Hit, Ray, Sphere, Vector};
@@ -139,6 +139,20 @@ impl<V: Vector> SphereBvh<V> {
         range: Range<V::Scalar>,
     ) -> impl FusedIterator<Item = (usize, Hit<V>)> + Clone + use<'_, V> {
         self.hits_in_lanes(Lanes::best(), ray, range)
+    }
+
+    /// The same with that set of instructions.
+    #[inline(always)]
+    pub(super) fn hits_in_lanes(
+        &self,
+        lanes: Lanes,
+        ray: &Ray<V>,
+        range: Range<V::Scalar>,
+    ) -> Hits<'_, V> {
+        match &self.0 {
+            Shape::Scan(spheres) => Hits::Scan(spheres.hits_in_lanes(lanes, ray, range)),
+            Shape::Tree(tree) => Hits::Tree(hierarchy::Hits::new(tree, lanes, ray, range)),
+        }
     }
 }
 

@@ -138,3 +138,106 @@ impl Approach {
         Moved { t, origin: self.origin + self.direction * t }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::testing::{Dyadic, Float, Random};
+
+    /// A number that is no more than an exact one, and of `f32` the next but a few.
+    fn assert_just_below(found: f32, exact: &Dyadic, size: f64, case: &str) {
+        let off = exact - &Dyadic::exactly(found.into());
+        assert!(!off.is_negative(), "{found:e} for {case}");
+        let allowed =
+            3.0 * f64::EPSILON * size + 1.01 * f64::from(f32::EPSILON) * f64::from(found).abs();
+        assert!(
+            off.approximately() <= allowed + f64::from(f32::from_bits(1)),
+            "{found:e} for {case}"
+        );
+    }
+
+    /// A range as a ray has it that begins anew has every t that is rounded into the range, and little more.
+    fn ranges_are_rounded_outwards<V: Vector>()
+    where
+        V::Scalar: Float,
+    {
+        let mut random = Random::new(1);
+        for round in 0..20_000 {
+            let t = V::Scalar::from_f64(random.float(-20..=20).abs());
+            let moved = [0.0, f64::from(to_f32(t)), random.float(-20..=20).abs()][round % 3];
+            let case = std::format!("{t}, moved by {moved}");
+            let [exact_t, exact_moved] = [t.into(), moved].map(Dyadic::exactly);
+            let size = Into::<f64>::into(t) + moved;
+
+            let end = local_end(t, moved);
+            assert_just_below(-end, &(&exact_moved - &exact_t), size, &case);
+
+            // Of what is rounded to t, the least may be nearly the float before.
+            let before = V::Scalar::from_ordinal(t.ordinal() - 1);
+            let exact_start = &Dyadic::exactly(before.into()) - &exact_moved;
+            assert_just_below(local_start::<V>(t, moved), &exact_start, size, &case);
+            // There is nothing behind the origin.
+            for start in [0.0, -1.0, f64::NEG_INFINITY] {
+                let start = local_start::<V>(V::Scalar::from_f64(start), moved);
+                assert_just_below(start, &-&exact_moved, moved, &case);
+            }
+        }
+        assert_eq!(local_end(V::Scalar::INFINITY, 7.0), f32::INFINITY);
+        assert_eq!(local_end(V::Scalar::INFINITY, 0.0), f32::INFINITY);
+    }
+
+    #[test]
+    fn ranges_are_rounded_outwards_in_both_precisions() {
+        ranges_are_rounded_outwards::<Vec3>();
+        ranges_are_rounded_outwards::<DVec3>();
+    }
+
+    /// A moved ray begins before its closest approach to the center, outside of twice the extent there, and on the ray.
+    #[test]
+    fn a_moved_ray_begins_before_what_it_comes_to() {
+        let mut random = Random::new(2);
+        for _ in 0..20_000 {
+            let mut vector = |most| DVec3::from([0; 3].map(|_| random.float(-4..=most)));
+            let (origin, direction) = (vector(12), vector(4));
+            let extent = random.float(-4..=4).abs();
+            let approach = Approach::new(origin, direction, extent);
+            let at = |t: f64| (origin + direction * t).length();
+            let closest = -origin.dot(direction) / direction.length_squared();
+            let moved = approach.moved(f64::INFINITY);
+            let before = (closest - moved.t) * direction.length();
+            let case = || std::format!("{origin} {direction} {extent}: {moved:?}, not {closest}");
+            assert!(
+                (moved.origin - (origin + direction * moved.t)).length() <= 1e-12 * origin.length()
+            );
+            let squared = approach.distance_squared();
+            if closest <= 0.0 {
+                assert_eq!((moved.t, squared), (0.0, f64::INFINITY), "{}", case());
+            } else {
+                let error = 1e-12 * origin.length_squared();
+                assert!((squared - at(closest).powi(2)).abs() <= error, "{}", case());
+            }
+            if moved.t > 0.0 {
+                // At least 4 extents over √3, and no more than 4.
+                assert!(
+                    before > 2.3 * extent && before > origin.length() * LEAST_PART / 1.8,
+                    "{}",
+                    case()
+                );
+                let most = (4.0 * extent).max(1.74 * origin.length() * LEAST_PART);
+                assert!(before < 1.001 * most, "{}", case());
+                let half = 0.5 * moved.t;
+                assert_eq!(approach.moved(half).t, half);
+            } else {
+                assert!(
+                    moved.t == 0.0
+                        && before
+                            <= 1.001 * (4.0 * extent).max(1.74 * origin.length() * LEAST_PART),
+                    "{}",
+                    case()
+                );
+            }
+        }
+    }
+}

@@ -127,3 +127,34 @@ fn a_nan_has_no_sign() {
             .is_outward(DVec3::INFINITY.with_y(1.0).with_z(1.0))
     );
 }
+
+/// Beside an infinity, other products do not count: without another, or with none of the other sign, it has the sign of the sum.
+#[test]
+fn an_infinity_has_the_sign_of_its_product() {
+    let mut random = Random::new(2);
+    for _ in 0..4_000 {
+        let [mut a, mut b] = [0; 2].map(|_| DVec3::from([0; 3].map(|_| random.float(-30..=30))));
+        if random.below(4) == 0 {
+            b[random.below(3)] = 0.0;
+        }
+        let mut signs = Vec::new();
+        for _ in 0..=random.below(2) {
+            let (axis, in_first) = (random.below(3), random.below(2) == 0);
+            let vector = if in_first { &mut a } else { &mut b };
+            vector[axis] = f64::INFINITY * random.sign();
+        }
+        for axis in 0..3 {
+            if a[axis].is_infinite() || b[axis].is_infinite() {
+                let is_number = a[axis] != 0.0 && b[axis] != 0.0;
+                signs.push(is_number.then_some(a[axis].signum() * b[axis].signum()));
+            }
+        }
+        let found = of_dot(a, b);
+        match signs[0] {
+            Some(sign) if signs.iter().all(|other| *other == Some(sign)) => {
+                assert_eq!(found, f64::INFINITY * sign, "{a} {b}");
+            }
+            _ => assert!(found.is_nan(), "{a} {b}"),
+        }
+    }
+}

@@ -1,6 +1,6 @@
 use super::*;
 use crate::arithmetic::pair::two_sum;
-use crate::testing::{Dyadic, Random, exactly, part_of_bound};
+use crate::testing::{Dyadic, Float, Random, exactly, part_of_bound};
 
 /// A line along x from (-9, 1, 0) to a sphere of radius 5 around the origin, scaled: it is at (-√24, 1, 0) of it.
 fn line(scale: f64) -> Line {
@@ -125,4 +125,58 @@ fn points_on_the_line_keep_their_bound() {
     }
     println!("{worst} of the bound");
     assert!(worst <= 1.0 && worst > 0.02, "{worst}");
+}
+
+/// The quotient of two numbers, correctly rounded; zero below half an ulp of 1.
+fn exact_normal<F: Float>(offset: f64, radius: f64) -> f64 {
+    let [offset, radius] = [offset, radius].map(Dyadic::exactly);
+    let near = offset.divided_by(&radius, 80);
+    let quotient: f64 = F::nearest_by(&near, |number| offset.cmp(&(number * &radius))).into();
+    let digits = i32::try_from(F::DIGITS).expect("53 at most");
+    if quotient.abs() < 2_f64.powi(-digits) { 0.0 } else { quotient }
+}
+
+#[test]
+fn a_normal_is_the_quotient_rounded_or_zero() {
+    let mut random = Random::new(3);
+    for round in 0..20_000 {
+        // At half an ulp of 1, within a few digits of it, and of any size.
+        let radius = [1.0, random.mantissa()][random.below(2)];
+        let half = [f64::from(f32::EPSILON) / 2.0, f64::EPSILON / 2.0][round % 2];
+        let part = match random.below(4) {
+            0 => 1.0,
+            1 => 1.0 + random.float(-60..=-20),
+            _ => random.float(-3..=3),
+        };
+        let offset = random.sign() * half * part * radius;
+        #[expect(clippy::cast_possible_truncation, reason = "those of the format")]
+        let [single_offset, single_radius] = [offset, radius].map(|x| f64::from(x as f32));
+        assert_eq!(
+            normal(Format::F32, single_offset, single_radius),
+            exact_normal::<f32>(single_offset, single_radius),
+            "{single_offset:e} / {single_radius}"
+        );
+        let found = normal(Format::F64, offset, radius);
+        assert_eq!(found, exact_normal::<f64>(offset, radius), "{offset:e} / {radius}");
+    }
+}
+
+/// The hit at a point and at an offset, known as well as that, of a sphere of radius 5 and a line along no axis.
+fn found_at(point: [f64; 3], offset: [f64; 3], error: f64) -> Option<Found> {
+    let line = Line { direction: DVec3::ONE, ..line(1.0) };
+    let near = |[x, y, z]: [f64; 3]| Near::within(Triple { x, y, z }.map(Pair::from), error);
+    let (point, offset) = (near(point), near(offset));
+    surely(line, Format::F64, 1.0, Crossing { side: Side::Near, point, offset })
+}
+
+#[test]
+fn a_coordinate_of_a_normal_that_is_next_to_nothing_is_zero() {
+    let point = [1.5, -1.25, 1.75];
+    for axes in 0..8 {
+        let offset = [1, 2, 4].map(|axis| if axes & axis == 0 { 2.5 } else { 1e-27 });
+        let found = found_at(point, offset, 1e-50).expect("certain");
+        let expected = offset.map(|x| if x == 2.5 { 0.5 } else { 0.0 });
+        assert_eq!(found.normal.to_array(), expected);
+        assert_eq!(found.point.to_array(), point);
+    }
 }

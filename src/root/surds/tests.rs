@@ -314,3 +314,20 @@ fn a_root_below_the_range_of_pairs_is_not_taken_for_exact() {
         assert_eq!(bits(Some(found)), bits(ask(&line, Format::F64, &ALL)));
     }
 }
+
+/// Lengths of 922 places and directions of one make the longest integers that the few digits are for, where a digit has 64 places;
+/// and here two factors have a digit more than their product.
+#[test]
+fn factors_with_a_digit_more_than_their_product_have_room() {
+    let [small, distance, along] = [-1074, -153, -1009].map(|places| scale(1.0, places));
+    let line = Line {
+        center: DVec3::new(0.0, small, -distance),
+        origin: DVec3::ZERO,
+        direction: DVec3::new(-along, 0.0, -along),
+        radius: distance,
+    };
+    let places = Unit::of_line(&line).expect("finite numbers").map(|unit| unit.places);
+    assert_eq!(places, [922, 1]);
+    assert_eq!(digits_of(places) == FEW_DIGITS, PLACES == 64);
+    assert!(check(&line, Format::F64));
+}

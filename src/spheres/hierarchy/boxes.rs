@@ -41,7 +41,6 @@
 
 use glam::{Vec3, Vec4};
 
-use super::LEAF;
 use crate::spheres::lanes::{Instructions, LANES};
 
 /// By how much a box may be missed, in L r: 16 u. See the derivation above. Proved in `tests/proofs/boxes.g`.
@@ -52,6 +51,9 @@ pub(super) const LEAST_COMPONENT: f32 = f32::EPSILON;
 
 /// What L is taken for if it is less.
 pub(super) const LEAST_COORDINATE: f32 = f32::from_bits((127 - 60) << 23); // 2^-60
+
+/// The bit that tells the number of a leaf from that of a node.
+pub(super) const LEAF: u32 = 1 << 31;
 
 /// A node: 16 boxes, those of its children.
 #[derive(Clone, Debug)]

@@ -2,48 +2,25 @@
 
 use alloc::vec::Vec;
 
-use arrayvec::ArrayVec;
 use glam::Vec4;
 
-use super::Tree;
-use super::bounds::Bounds;
-use super::leaf::{Leaf, NONE};
-use super::split::split_up;
+use super::number::{MOST, number};
+use super::split::{Member, split_up};
+use super::tree::Tree;
 use super::wide::Wide;
 use crate::rejection::can_be_hit;
 use crate::spheres::filter::is_in_reach;
 use crate::spheres::lanes::{LANES, Lanes};
-use crate::spheres::local::{narrow, to_f32};
-use crate::{Scalar, Sphere, Vector};
+use crate::{Sphere, Vector};
 
 /// Up to so many spheres, as a multiple of the numbers in a vector, a scan takes no longer than the hierarchy.
 const FEW: usize = 20;
-
-/// How many spheres a hierarchy has at most: the places of all, with the lanes of leaves that are not full, are numbers of 32
-/// bits.
-pub(super) const MOST: usize = 1 << 31;
 
 /// How many large spheres are kept apart at most: one block for the scan to filter.
 const APART: usize = LANES;
 
 /// A sphere is large if its radius is more than the extent of the others divided by this.
 const LARGE: f32 = 4.0;
-
-/// A sphere, and its place in the order in which the spheres were given.
-#[derive(Clone, Copy)]
-pub(super) struct Member {
-    /// The center, relative to that of the region, and the radius, in a vector.
-    pub(super) sphere: Vec4,
-    pub(super) index: u32,
-}
-
-impl Member {
-    #[inline(always)]
-    pub(super) fn new<V: Vector>(index: u32, sphere: &Sphere<V>, center: V) -> Self {
-        let Sphere { center: own, radius } = *sphere;
-        Self { sphere: narrow(own - center).extend(to_f32(radius)), index }
-    }
-}
 
 /// Whether a tree answers sooner than a scan, of so many spheres and with these instructions, and can be built.
 pub(super) fn is_tree(count: usize, lanes: Lanes) -> bool {
@@ -89,30 +66,6 @@ impl<V: Vector> Tree<V> {
     }
 }
 
-/// A number that 32 bits hold, for there are at most [`MOST`] spheres.
-#[expect(clippy::cast_possible_truncation, reason = "it is not beyond them")]
-pub(super) fn number(number: usize) -> u32 {
-    number as u32
-}
-
-/// The leaf of up to 16 of the spheres, and the box around it. In each lane that is left is a point, which hardly a ray comes
-/// near, with an index that tells it.
-pub(super) fn leaf<V: Vector>(
-    members: &[Member],
-    spheres: &[Sphere<V>],
-) -> Option<(Leaf<V::Scalar>, Bounds)> {
-    // All first: they may be anywhere in memory, and one is not waited for before the next is asked for.
-    let spheres: ArrayVec<Sphere<V>, LANES> =
-        members.iter().take(LANES).map(|member| spheres[member.index as usize]).collect();
-    let mut leaf = Leaf::filled(NONE, &Sphere::new(spheres.first()?.center, V::Scalar::ZERO));
-    let mut bounds = Bounds::NONE;
-    for (lane, (member, sphere)) in members.iter().zip(&spheres).enumerate() {
-        leaf.set(lane, member.index, sphere);
-        bounds = bounds.and(Bounds::of(sphere));
-    }
-    Some((leaf, bounds))
-}
-
 /// Moves the few members that are as large as all others together, such as the ground that they stand on: every box that held
 /// one would be in the way of nearly every ray.
 fn set_apart_the_large(members: &mut Vec<Member>, apart: &mut Vec<u32>) {
@@ -142,6 +95,7 @@ mod tests {
 
     use super::*;
     use crate::spheres::hierarchy::boxes::Boxes;
+    use crate::spheres::hierarchy::leaf::{Leaf, NONE};
     use crate::spheres::hierarchy::region::Region;
 
     /// A scan is as fast up to 80, 160 or 320 spheres.

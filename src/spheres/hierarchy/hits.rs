@@ -6,10 +6,12 @@
 
 use core::ops::Range;
 
-use super::build::number;
+use super::boxes::LEAF;
 use super::leaf::{Leaf, NONE};
+use super::number::number;
+use super::tree::Tree;
+use super::visits::{self, Visit};
 use super::walk::{Enter, Query, allows};
-use super::{LEAF, Tree};
 use crate::order::next_above;
 use crate::spheres::crossings::{Crossings, Places};
 use crate::spheres::lanes::Lanes;
@@ -71,7 +73,7 @@ pub(in crate::spheres) struct Hits<'a, V: Vector> {
 
 impl<'a, V: Vector> Hits<'a, V> {
     #[inline(always)]
-    pub(super) fn new(
+    pub(in crate::spheres) fn new(
         tree: &'a Tree<V>,
         lanes: Lanes,
         ray: &Ray<V>,
@@ -122,6 +124,7 @@ impl<'a, V: Vector> Hits<'a, V> {
         let Self { lanes, query, waiting, crossings, .. } = self;
         if child & LEAF == 0 {
             let Some(node) = crossings.places.nodes.get(child as usize) else { return };
+            visits::count(Visit::Node);
             let mut entered = lanes.run(Enter { node, query });
             if entered == 0 {
                 if let Some(inner) = node.region() {
@@ -139,11 +142,13 @@ impl<'a, V: Vector> Hits<'a, V> {
         } else {
             let place = (child & !LEAF) as usize;
             let Some(leaf) = crossings.places.leaves.get(place) else { return };
+            visits::count(Visit::Leaf);
             let mut near = query.near(*lanes, leaf);
             while near != 0 {
                 let lane = near.trailing_zeros() as usize;
                 near &= near - 1;
                 if leaf.index(lane) != NONE {
+                    visits::count(Visit::Sphere);
                     crossings.ask(place * Leaf::<V::Scalar>::LANES + lane);
                 }
             }

@@ -5,12 +5,12 @@ use core::ops::Range;
 
 use arrayvec::ArrayVec;
 
-use super::boxes::{Boxes, MARGIN};
+use super::boxes::{Boxes, LEAF, MARGIN};
 use super::frustum::{Enter, Frustum, Prepare, Slabs};
 use super::leaf::{Leaf, NONE};
 use super::region::FAR;
+use super::tree::Tree;
 use super::walk::{Key, MOST_WAITING, child, entry, key};
-use super::{LEAF, Tree};
 use crate::spheres::each::Collection;
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
 use crate::spheres::packet::cone::Cone;
@@ -211,6 +211,6 @@ impl<V: Vector> Tree<V> {
 
     /// The place of the first sphere that is kept apart.
     fn first_apart(&self) -> u32 {
-        super::build::number(self.leaves.len() * LANES)
+        super::number::number(self.leaves.len() * LANES)
     }
 }

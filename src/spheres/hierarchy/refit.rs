@@ -10,10 +10,10 @@ use alloc::vec::Vec;
 use glam::Vec3;
 
 use super::bounds::Bounds;
-use super::boxes::{Boxes, LEAST_COORDINATE};
-use super::build::number;
+use super::boxes::{Boxes, LEAF, LEAST_COORDINATE};
 use super::leaf::NONE;
-use super::{LEAF, Tree};
+use super::number::number;
+use super::tree::Tree;
 use crate::rejection::can_be_hit;
 use crate::spheres::filter::is_in_reach;
 use crate::spheres::lanes::LANES;
@@ -261,6 +261,30 @@ mod tests {
             others[77] = Sphere::new(V::from_f64(center), V::Scalar::from_f64(radius));
             assert!(!is_kept(&others), "{center}, {radius}");
         }
+    }
+
+    /// Boxes that are all as many times as large as before are that on average, and what all have become smaller by does not count.
+    fn keeps_a_tree_that_has_grown_by_little<V: Vector>() {
+        let spheres = cloud::<V>(&mut Rng::new(5));
+        let tree = Tree::new(&spheres);
+        for (scale, is_kept) in
+            [(0.1, true), (0.9, true), (1.05, true), (1.055, true), (1.065, false), (1.1, false)]
+        {
+            let scaled: Vec<Sphere<V>> = spheres
+                .iter()
+                .map(|sphere| {
+                    let center = V::from_f64(sphere.center.to_f64() * scale);
+                    Sphere::new(center, V::Scalar::from_f64(sphere.radius.into() * scale))
+                })
+                .collect();
+            assert_eq!(tree.clone().refit(&scaled), is_kept, "{scale}");
+        }
+    }
+
+    #[test]
+    fn keeps_a_tree_that_has_grown_by_little_in_both_precisions() {
+        keeps_a_tree_that_has_grown_by_little::<glam::Vec3>();
+        keeps_a_tree_that_has_grown_by_little::<DVec3>();
     }
 
     /// Spheres apart and those that no ray can hit are moved, too, and do not make it build anew.

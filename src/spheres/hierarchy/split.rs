@@ -19,8 +19,9 @@ use core::ops::Range;
 
 use glam::{DVec3, Vec4};
 
-use super::build::{MOST, Member, number};
+use super::number::{MOST, number};
 use crate::spheres::lanes::LANES;
+use crate::spheres::local::{narrow, to_f32};
 use crate::{Sphere, Vector};
 
 /// Into how many bins spheres are sorted on each axis.
@@ -59,6 +60,22 @@ const OFF_CENTER: f64 = 1.0 / 16.0;
 
 /// Which part of all makes two bins of sixteen the place of nearly all.
 const NEARLY_ALL: [usize; 2] = [7, 8];
+
+/// A sphere, and its place in the order in which the spheres were given.
+#[derive(Clone, Copy)]
+pub(super) struct Member {
+    /// The center, relative to that of the region, and the radius, in a vector.
+    pub(super) sphere: Vec4,
+    pub(super) index: u32,
+}
+
+impl Member {
+    #[inline(always)]
+    pub(super) fn new<V: Vector>(index: u32, sphere: &Sphere<V>, center: V) -> Self {
+        let Sphere { center: own, radius } = *sphere;
+        Self { sphere: narrow(own - center).extend(to_f32(radius)), index }
+    }
+}
 
 /// A binary tree.
 pub(super) struct Binary<V> {

@@ -181,6 +181,50 @@ mod tests {
         assert!(kept > 5 && built > 0, "{kept}, {built}");
     }
 
+    /// To find the first crossing, as much is opened as for the nearest hit, or less, for the box that the ray enters first is
+    /// opened first; and what is nearer than the first box that waits opens nothing.
+    fn few_are_opened_for_the_first_crossings<V: Vector>() {
+        let mut rng = Rng::new(3);
+        let slice: Vec<Sphere<V>> = cloud(&mut rng, 5000)
+            .iter()
+            .map(|&(center, radius)| Sphere::new(V::from_f64(center), V::Scalar::from_f64(radius)))
+            .collect();
+        let bvh = SphereBvh::new(&slice);
+        for lanes in Lanes::available() {
+            let mut sums = [[0; 3]; 3];
+            for _ in 0..RAYS {
+                let eye = within(&mut rng, 60.0);
+                let direction = V::from_f64(within(&mut rng, 30.0) - eye);
+                let ray = Ray::new(V::from_f64(eye), direction);
+                let range = V::Scalar::ZERO..V::Scalar::INFINITY;
+                taken();
+                bvh.nearest_in_lanes(lanes, &ray, range.clone());
+                let nearest = taken();
+                let mut hits = bvh.hits_in_lanes(lanes, &ray, range);
+                hits.next();
+                let first = taken();
+                hits.by_ref().for_each(drop);
+                for (sums, visits) in sums.iter_mut().zip([nearest, first, taken()]) {
+                    for (sum, visits) in sums.iter_mut().zip(visits) {
+                        *sum += visits;
+                    }
+                }
+            }
+            let [nearest, first, rest] = sums;
+            let case = std::format!("{lanes:?}: {nearest:?}, {first:?}, {rest:?}");
+            std::println!("{case}");
+            assert!(first[0] <= nearest[0] && first[1] <= nearest[1], "{case}");
+            assert!(first[2] <= nearest[2] + nearest[2] / 4, "{case}");
+            assert!(rest.iter().all(|visits| *visits > 0), "{case}");
+        }
+    }
+
+    #[test]
+    fn few_are_opened_for_the_first_crossings_in_both_precisions() {
+        few_are_opened_for_the_first_crossings::<Vec3>();
+        few_are_opened_for_the_first_crossings::<DVec3>();
+    }
+
     /// Of each scene, nodes, leaves and spheres.
     const VISITS_OF_SCENES: [(&str, [u32; 3]); 11] = [
         ("cloud", [3944, 5323, 325]),

@@ -7,13 +7,13 @@ use core::ops::Range;
 
 use arrayvec::ArrayVec;
 
-use super::boxes::Boxes;
-use super::build::number;
+use super::boxes::{Boxes, LEAF};
 use super::leaf::{Leaf, NONE};
+use super::number::number;
 use super::region::{Region, Way};
 use super::split::{DEEPEST, MOST_NESTED};
+use super::tree::Tree;
 use super::visits::{self, Visit};
-use super::{LEAF, Tree};
 use crate::float::sqrt;
 use crate::order::{is_nearer, next_above};
 use crate::spheres::filter::{LARGEST, Segment};

@@ -16,15 +16,16 @@
 
 use alloc::vec::Vec;
 
-use super::LEAF;
+use arrayvec::ArrayVec;
+
 use super::bounds::Bounds;
-use super::boxes::{Boxes, LEAST_COORDINATE};
-use super::build::{Member, leaf, number};
-use super::leaf::Leaf;
+use super::boxes::{Boxes, LEAF, LEAST_COORDINATE};
+use super::leaf::{Leaf, NONE};
+use super::number::number;
 use super::region::Region;
-use super::split::{Binary, Split};
+use super::split::{Binary, Member, Split};
 use crate::spheres::lanes::LANES;
-use crate::{Sphere, Vector};
+use crate::{Scalar, Sphere, Vector};
 
 /// M for all leaves together, in areas of the root.
 const MEMORY: f32 = 4.0;
@@ -165,6 +166,21 @@ impl<'a, V: Vector> Wide<'a, V> {
     }
 }
 
+/// The leaf of up to 16 of the spheres, and the box around it. In each lane that is left is a point, which hardly a ray comes
+/// near, with an index that tells it.
+fn leaf<V: Vector>(members: &[Member], spheres: &[Sphere<V>]) -> Option<(Leaf<V::Scalar>, Bounds)> {
+    // All first: they may be anywhere in memory, and one is not waited for before the next is asked for.
+    let spheres: ArrayVec<Sphere<V>, LANES> =
+        members.iter().take(LANES).map(|member| spheres[member.index as usize]).collect();
+    let mut leaf = Leaf::filled(NONE, &Sphere::new(spheres.first()?.center, V::Scalar::ZERO));
+    let mut bounds = Bounds::NONE;
+    for (lane, (member, sphere)) in members.iter().zip(&spheres).enumerate() {
+        leaf.set(lane, member.index, sphere);
+        bounds = bounds.and(Bounds::of(sphere));
+    }
+    Some((leaf, bounds))
+}
+
 /// The costs of all splits.
 fn costs(splits: &[Split]) -> Vec<Costs> {
     let mut costs: Vec<Costs> = Vec::with_capacity(splits.len());
@@ -215,7 +231,6 @@ mod tests {
     use sobol_burley::sample;
 
     use super::*;
-    use crate::spheres::hierarchy::leaf::NONE;
     use crate::spheres::hierarchy::split::split_up;
 
     /// A tree of spheres and what they are.

@@ -6,7 +6,7 @@ use core::arch::x86_64::{
 };
 use std::arch::is_x86_feature_detected;
 
-use super::{Instructions, LANES, Vectorized};
+use super::instructions::{Instructions, LANES, Vectorized};
 
 /// The machine has AVX2 and FMA.
 #[derive(Clone, Copy)]

@@ -7,7 +7,7 @@ mod implementation {
     use core::arch::x86_64::{_mm512_cmplt_epi32_mask, _mm512_loadu_si512, _mm512_setzero_si512};
     use std::arch::is_x86_feature_detected;
 
-    use crate::spheres::lanes::{Instructions, LANES, Vectorized};
+    use crate::spheres::lanes::instructions::{Instructions, LANES, Vectorized};
 
     /// The machine has the foundation of AVX-512, which is enough.
     #[derive(Clone, Copy)]
@@ -57,7 +57,7 @@ mod implementation {
 
 #[rustversion::before(1.89)]
 mod implementation {
-    use crate::spheres::lanes::Vectorized;
+    use crate::spheres::lanes::instructions::Vectorized;
 
     /// There is none.
     #[derive(Clone, Copy)]
