@@ -58,6 +58,8 @@ impl<V: Vector, C: Collection<V>> Nearest<'_, V, C> {
 }
 
 impl<V: Vector, C: Collection<V>> Question<V> for Nearest<'_, V, C> {
+    const IS_ANY_ORDER: bool = false;
+
     fn ask(
         &mut self,
         packet: &mut Packet,
@@ -88,6 +90,8 @@ struct Occluded<'a, V: Vector> {
 }
 
 impl<V: Vector> Question<V> for Occluded<'_, V> {
+    const IS_ANY_ORDER: bool = true;
+
     fn ask(
         &mut self,
         packet: &mut Packet,

@@ -23,6 +23,14 @@ use super::scan::{Bits, Spheres};
 use crate::float::sqrt_f32;
 use crate::{Ray, Sphere, Vector};
 
+/// TEMPORARY.
+pub(super) fn tune(k: usize, default: f32) -> f32 {
+    static T: std::sync::OnceLock<std::vec::Vec<f32>> = std::sync::OnceLock::new();
+    let t = T.get_or_init(|| std::env::var("TUNE").unwrap_or_default().split(',').map(|s| s.parse().unwrap_or(f32::NAN)).collect());
+    let v = t.get(k).copied().unwrap_or(f32::NAN);
+    if v.is_nan() { default } else { v }
+}
+
 /// How many rays a packet has at most.
 pub(super) const RAYS: usize = 64;
 
@@ -173,7 +181,7 @@ impl Packet {
         };
         self.cone = cone;
         self.alive = allowed;
-        self.patience = PATIENCE;
+        self.patience = tune(1, PATIENCE as f32) as i32;
         for place in Bits(!allowed & (Mask::MAX >> (RAYS - self.count * LANES))) {
             self.silence(place);
         }
@@ -206,6 +214,11 @@ impl Packet {
             ),
             end[lane],
         )
+    }
+
+    #[inline(always)]
+    pub(super) fn end_of(&self, place: usize) -> f32 {
+        self.sixteens[place / LANES % (RAYS / LANES)].end[place % LANES]
     }
 
     /// Asks a ray no more.
@@ -304,6 +317,8 @@ impl Packet {
 
 /// What is asked of all rays.
 pub(super) trait Question<V: Vector> {
+    const IS_ANY_ORDER: bool;
+
     /// Asks whether those rays meet the sphere at that place.
     fn ask(
         &mut self,
@@ -379,6 +394,8 @@ impl Around {
     /// Whether most of a few pairs of rays are neighbors: those that have nothing in common are told before they cost anything.
     fn are_neighbors<V: Vector>(&self, rays: &[Ray<V>]) -> bool {
         let [apart, wide] = self.neighbors;
+        let apart = apart * tune(0, 1.0).powi(2);
+        let wide = wide * tune(0, 1.0).powi(2);
         let step = rays.len() / PAIRS;
         let others = rays.iter().skip(step / 2).step_by(step.max(1));
         let strangers = rays.iter().step_by(step.max(1)).zip(others).filter(|(one, other)| {

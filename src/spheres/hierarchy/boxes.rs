@@ -182,6 +182,18 @@ pub(super) struct Slabs {
 
 impl Slabs {
     #[inline(always)]
+    pub(super) fn with(reciprocal: Vec4, offset: Vec4, reach: f32) -> Self {
+        let mask = reciprocal.is_negative_bitmask();
+        let reach = reciprocal.abs() * reach;
+        Self {
+            reciprocal,
+            near: offset - reach,
+            far: offset + reach,
+            is_negative: [mask & 1 != 0, mask & 2 != 0, mask & 4 != 0],
+        }
+    }
+
+    #[inline(always)]
     pub(super) fn new(origin: Vec3, direction: Vec3, largest_coordinate: f32, margin: f32) -> Self {
         // The fourth number is there for the maximum.
         let origin = origin.extend(largest_coordinate);

@@ -171,6 +171,18 @@ impl Slabs {
             RAYS / LANES],
         reach: 0.0,
     };
+
+    #[inline(always)]
+    pub(super) fn alone(&self, packet: &Packet, ray: usize) -> (super::boxes::Slabs, f32) {
+        let (number, lane) = (ray / LANES % (RAYS / LANES), ray % LANES);
+        let SixteenSlabs { reciprocal, offset } = &self.sixteens[number];
+        let vector = |numbers: &[[f32; LANES]; 3]| {
+            let [x, y, z] = numbers.each_ref().map(|numbers| numbers[lane]);
+            Vec4::new(x, y, z, 0.0)
+        };
+        let slabs = super::boxes::Slabs::with(vector(reciprocal), vector(offset), self.reach);
+        (slabs, packet.end_of(ray))
+    }
 }
 
 /// Prepares the slabs of a packet.

@@ -14,9 +14,11 @@ use super::walk::{Key, MOST_WAITING, child, entry, key};
 use crate::spheres::each::Collection;
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
 use crate::spheres::packet::cone::Cone;
-use crate::spheres::packet::{Around, Mask, Packet, Question};
+use crate::spheres::packet::{Around, Mask, Packet, Question, RAYS};
 use crate::spheres::scan::Bits;
 use crate::{Hit, Ray, Scalar, Sphere, Vector};
+
+const RATIO: u32 = 1;
 
 /// Numbers of 16 boxes, where one instruction can write them.
 #[repr(align(64))]
@@ -55,11 +57,38 @@ impl<S: Scalar> Vectorized for InLeaf<'_, S> {
     }
 }
 
+/// Asks 16 boxes or spheres of each ray, one by one, and returns for each which rays may meet it.
+#[inline(always)]
+fn one_by_one<I: Instructions>(
+    instructions: I,
+    rays: Mask,
+    wanted: u32,
+    mut near: impl FnMut(usize) -> u32,
+) -> [Mask; LANES] {
+    let mut bits = [[0; LANES]; RAYS / LANES];
+    let mut any = 0;
+    for ray in Bits(rays) {
+        let near = near(ray);
+        any |= near;
+        bits[ray / LANES % (RAYS / LANES)][ray % LANES] = near;
+    }
+    let wanted = wanted & any;
+    let mut masks = [0; LANES];
+    for lane in Bits(wanted.into()) {
+        for (bits, number) in bits.iter().zip(0..) {
+            let signs = bits.map(|bits: u32| f32::from_bits(bits << (31 - lane)));
+            masks[lane % LANES] |= Mask::from(instructions.signs(&signs)) << (number * LANES);
+        }
+    }
+    masks
+}
+
 /// Asks which rays may meet each sphere of a leaf, one by one: where they are fewer than what 16 rays would have to be asked of.
 struct InLeafAlone<'a, S> {
     leaf: &'a Leaf<S>,
     packet: &'a Packet,
     rays: Mask,
+    wanted: u32,
 }
 
 impl<S: Scalar> Vectorized for InLeafAlone<'_, S> {
@@ -67,14 +96,34 @@ impl<S: Scalar> Vectorized for InLeafAlone<'_, S> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, instructions: I) -> [Mask; LANES] {
-        let mut near = [0; LANES];
-        for ray in Bits(self.rays) {
-            let (cone, end) = self.packet.alone(ray);
-            for lane in Bits(cone.near(instructions, self.leaf.numbers(), end).into()) {
-                near[lane] |= 1 << ray;
-            }
-        }
-        near
+        let Self { leaf, packet, rays, wanted } = self;
+        one_by_one(instructions, rays, wanted, |ray| {
+            let (cone, end) = packet.alone(ray);
+            cone.near(instructions, leaf.numbers(), end)
+        })
+    }
+}
+
+/// Asks which rays may enter each box of a node, one by one.
+struct EnterAlone<'a> {
+    slabs: &'a Slabs,
+    packet: &'a Packet,
+    boxes: &'a Boxes,
+    rays: Mask,
+    wanted: u32,
+}
+
+impl Vectorized for EnterAlone<'_> {
+    type Output = [Mask; LANES];
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, instructions: I) -> [Mask; LANES] {
+        let Self { slabs, packet, boxes, rays, wanted } = self;
+        let mut entries = [0.0; LANES];
+        one_by_one(instructions, rays, wanted, |ray| {
+            let (slabs, end) = slabs.alone(packet, ray);
+            boxes.entered(instructions, &slabs, [packet.first, end], &mut entries)
+        })
     }
 }
 
@@ -97,9 +146,10 @@ impl<V: Vector> Collection<V> for Tree<V> {
         let Some(whole) = self.regions.first().filter(|_| packet.alive != 0) else { return };
         let mut slabs = Slabs::EMPTY;
         lanes.run(Prepare::new(&mut slabs, packet, whole));
+        let ratio = crate::spheres::packet::tune(2, 1.0);
         let frustum = Frustum::new(packet, whole, MARGIN);
         let mut entries = Numbers([0.0; LANES]);
-        let mut waiting = ArrayVec::<(Key, Mask), MOST_WAITING>::new();
+        let mut waiting = ArrayVec::<(Key, Mask, bool), MOST_WAITING>::new();
         let (mut place, mut rays) = (whole.root, packet.alive);
         loop {
             if place & LEAF != 0 {
@@ -110,6 +160,18 @@ impl<V: Vector> Collection<V> for Tree<V> {
                 let end = packet.farthest;
                 let mut entered =
                     lanes.run(EnterAny { node, frustum: &frustum, end, entries: &mut entries });
+                let mut masks = [rays; LANES];
+                let are_tested = Q::IS_ANY_ORDER
+                    && (rays.count_ones() as f32) < ratio * (entered.count_ones() * Packet::tests(rays)) as f32;
+                if are_tested && entered != 0 {
+                    masks = lanes.run(EnterAlone {
+                        slabs: &slabs,
+                        packet,
+                        boxes: node,
+                        rays,
+                        wanted: entered,
+                    });
+                }
                 // The nearest is next, and the others as they come.
                 let first = waiting.len();
                 while entered != 0 {
@@ -117,16 +179,19 @@ impl<V: Vector> Collection<V> for Tree<V> {
                     entered &= entered - 1;
                     // A box, by its node and its lane: there are fewer than 32 bits can tell apart.
                     let key = key(entries.0[lane as usize % LANES], place * 16 + lane);
-                    let _ = waiting.try_push((key, rays));
+                    let mask = masks[lane as usize % LANES];
+                    if mask != 0 {
+                        let _ = waiting.try_push((key, mask, are_tested));
+                    }
                 }
                 let pushed = waiting.get_mut(first..).unwrap_or_default();
-                pushed.sort_unstable_by_key(|&(key, _)| Reverse(key));
+                if !Q::IS_ANY_ORDER { pushed.sort_unstable_by_key(|&(key, ..)| Reverse(key)); }
                 if node.region().is_some() {
                     packet.leave_alone(rays);
                 }
             }
             loop {
-                let Some((key, asked)) = waiting.pop() else { return };
+                let Some((key, asked, is_tested)) = waiting.pop() else { return };
                 let asked = asked & packet.alive;
                 let (place_of_node, lane) =
                     (child(key) as usize / LANES, child(key) as usize % LANES);
@@ -134,9 +199,13 @@ impl<V: Vector> Collection<V> for Tree<V> {
                     continue;
                 }
                 let Some(boxes) = self.nodes.get(place_of_node) else { continue };
-                rays = lanes.run(Enter { slabs: &slabs, packet, boxes, lane, rays: asked });
-                if !packet.pays(2 + Packet::tests(asked), 2 * rays.count_ones()) {
-                    return;
+                if is_tested {
+                    rays = asked;
+                } else {
+                    rays = lanes.run(Enter { slabs: &slabs, packet, boxes, lane, rays: asked });
+                    if !packet.pays(2 + Packet::tests(asked), 2 * rays.count_ones()) {
+                        return;
+                    }
                 }
                 if rays != 0 {
                     place = boxes.child(child(key) % 16);
@@ -193,7 +262,7 @@ impl<V: Vector> Tree<V> {
             return false;
         }
         let of_spheres = if alone < together {
-            lanes.run(InLeafAlone { leaf, packet, rays })
+            lanes.run(InLeafAlone { leaf, packet, rays, wanted: near })
         } else {
             [rays; LANES]
         };
