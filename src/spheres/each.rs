@@ -58,7 +58,8 @@ impl<V: Vector, C: Collection<V>> Nearest<'_, V, C> {
 }
 
 impl<V: Vector, C: Collection<V>> Question<V> for Nearest<'_, V, C> {
-    const IS_ANY_ORDER: bool = false;
+    const NEIGHBORS: [f32; 2] = [0.125, 0.1];
+    const IN_ANY_ORDER: bool = false;
 
     fn ask(
         &mut self,
@@ -90,7 +91,8 @@ struct Occluded<'a, V: Vector> {
 }
 
 impl<V: Vector> Question<V> for Occluded<'_, V> {
-    const IS_ANY_ORDER: bool = true;
+    const NEIGHBORS: [f32; 2] = [0.3, 0.25];
+    const IN_ANY_ORDER: bool = true;
 
     fn ask(
         &mut self,
@@ -157,8 +159,8 @@ const fn is_single<V: Vector>() -> bool {
 }
 
 /// Finds the nearest hit of each ray.
-fn nearest_each<V: Vector>(
-    collection: &impl Collection<V>,
+fn nearest_each<V: Vector, C: Collection<V>>(
+    collection: &C,
     lanes: Lanes,
     rays: &[Ray<V>],
     range: &Range<V::Scalar>,
@@ -171,7 +173,8 @@ fn nearest_each<V: Vector>(
         question.finish(packet);
     };
     let alone = |ray: &Ray<V>| collection.nearest_alone(lanes, ray, range.clone());
-    each(collection, lanes, (rays, range), found, together, alone);
+    let neighbors = <Nearest<'_, V, C> as Question<V>>::NEIGHBORS;
+    each(collection, lanes, (rays, range, neighbors), found, together, alone);
 }
 
 /// Finds whether each ray hits anything.
@@ -187,14 +190,15 @@ fn occludes_each<V: Vector>(
         collection.ask(lanes, packet, &mut Occluded { rays, range, answers });
     };
     let alone = |ray: &Ray<V>| collection.occludes_alone(lanes, ray, range.clone());
-    each(collection, lanes, (rays, range), occluded, together, alone);
+    let neighbors = <Occluded<'_, V> as Question<V>>::NEIGHBORS;
+    each(collection, lanes, (rays, range, neighbors), occluded, together, alone);
 }
 
 /// Answers for each ray: those that a packet takes together, and the others alone.
 fn each<V: Vector, T>(
     collection: &impl Collection<V>,
     lanes: Lanes,
-    (rays, range): (&[Ray<V>], &Range<V::Scalar>),
+    (rays, range, neighbors): (&[Ray<V>], &Range<V::Scalar>, [f32; 2]),
     answers: &mut [T],
     together: impl Fn(&mut Packet, &[Ray<V>], &mut [T]),
     alone: impl Fn(&Ray<V>) -> T,
@@ -207,7 +211,7 @@ fn each<V: Vector, T>(
         let (rays, answers) = (&rays[..count], &mut answers[..count]);
         let mut asked = 0;
         if is_single::<V>() {
-            asked = packet.load(lanes, rays, range, around);
+            asked = packet.load(lanes, rays, range, around, neighbors);
         }
         if asked != 0 {
             together(&mut packet, rays, answers);
@@ -226,7 +230,7 @@ fn each<V: Vector, T>(
 impl<V: Vector> Collection<V> for Spheres<V> {
     fn around(&self) -> Around {
         let Middle { center, extent, near_squared } = self.middle;
-        Around::new(center, near_squared, extent)
+        Around { center: narrow(center), radius_squared: near_squared, extent }
     }
 
     fn ask<Q: Question<V>>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) {

@@ -23,14 +23,6 @@ use super::scan::{Bits, Spheres};
 use crate::float::sqrt_f32;
 use crate::{Ray, Sphere, Vector};
 
-/// TEMPORARY.
-pub(super) fn tune(k: usize, default: f32) -> f32 {
-    static T: std::sync::OnceLock<std::vec::Vec<f32>> = std::sync::OnceLock::new();
-    let t = T.get_or_init(|| std::env::var("TUNE").unwrap_or_default().split(',').map(|s| s.parse().unwrap_or(f32::NAN)).collect());
-    let v = t.get(k).copied().unwrap_or(f32::NAN);
-    if v.is_nan() { default } else { v }
-}
-
 /// How many rays a packet has at most.
 pub(super) const RAYS: usize = 64;
 
@@ -42,10 +34,6 @@ const RAYS_IN_A_TEST: u32 = 2;
 
 /// By how many tests of 16 rays a packet may fall behind before it is given up: it takes as long as some of its rays, one by one.
 const PATIENCE: i32 = 256;
-
-/// How far apart the origins of neighbors may be, in extents of the collection, and their directions, in their lengths. Rays
-/// farther apart share little more than the first nodes.
-const NEIGHBORS: [f32; 2] = [0.125, 0.1];
 
 /// How many pairs of rays tell whether they are neighbors.
 const PAIRS: usize = 4;
@@ -138,11 +126,12 @@ impl Packet {
         rays: &[Ray<V>],
         range: &Range<V::Scalar>,
         around: Around,
+        neighbors: [f32; 2],
     ) -> Mask {
         let [start, end] = [range.start, range.end].map(to_f32);
         (self.alone, self.alive) = (0, 0);
         self.first = if start > 0.0 { start } else { LEAST_POSITIVE };
-        if !around.are_neighbors(rays) {
+        if !around.are_neighbors(rays, neighbors) {
             return 0;
         }
         let is_empty = start.is_nan() || end.is_nan() || self.first >= end;
@@ -181,7 +170,7 @@ impl Packet {
         };
         self.cone = cone;
         self.alive = allowed;
-        self.patience = tune(1, PATIENCE as f32) as i32;
+        self.patience = PATIENCE;
         for place in Bits(!allowed & (Mask::MAX >> (RAYS - self.count * LANES))) {
             self.silence(place);
         }
@@ -216,8 +205,9 @@ impl Packet {
         )
     }
 
+    /// The end that a ray has so far.
     #[inline(always)]
-    pub(super) fn end_of(&self, place: usize) -> f32 {
+    pub(super) fn end(&self, place: usize) -> f32 {
         self.sixteens[place / LANES % (RAYS / LANES)].end[place % LANES]
     }
 
@@ -317,7 +307,12 @@ impl Packet {
 
 /// What is asked of all rays.
 pub(super) trait Question<V: Vector> {
-    const IS_ANY_ORDER: bool;
+    /// How far apart the origins of neighbors may be, in extents of the collection, and their directions, in their lengths. Rays
+    /// farther apart share little more than the first nodes.
+    const NEIGHBORS: [f32; 2];
+
+    /// Whether spheres may be asked in any order: the nearest need not be the first.
+    const IN_ANY_ORDER: bool;
 
     /// Asks whether those rays meet the sphere at that place.
     fn ask(
@@ -372,30 +367,20 @@ fn reduce(mut numbers: [f32; LANES], choose: impl Fn(f32, f32) -> f32) -> f32 {
     numbers[0]
 }
 
-/// What rays of a collection are asked together.
+/// Where rays are asked together.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Around {
     /// Where rays do not come from afar.
     pub(super) center: Vec3,
     pub(super) radius_squared: f32,
-    /// The squares of how far apart origins may be, and directions, in their lengths.
-    pub(super) neighbors: [f32; 2],
+    /// What spheres reach from there.
+    pub(super) extent: f32,
 }
 
 impl Around {
-    /// Around a center, for spheres up to that extent.
-    pub(super) fn new<V: Vector>(center: V, radius_squared: f32, extent: f32) -> Self {
-        let [apart, wide] = NEIGHBORS;
-        let apart = apart * extent;
-        let neighbors = [apart * apart, wide * wide];
-        Self { center: narrow(center), radius_squared, neighbors }
-    }
-
     /// Whether most of a few pairs of rays are neighbors: those that have nothing in common are told before they cost anything.
-    fn are_neighbors<V: Vector>(&self, rays: &[Ray<V>]) -> bool {
-        let [apart, wide] = self.neighbors;
-        let apart = apart * tune(0, 1.0).powi(2);
-        let wide = wide * tune(0, 1.0).powi(2);
+    fn are_neighbors<V: Vector>(&self, rays: &[Ray<V>], neighbors: [f32; 2]) -> bool {
+        let [apart, wide] = [neighbors[0] * self.extent, neighbors[1]].map(|limit| limit * limit);
         let step = rays.len() / PAIRS;
         let others = rays.iter().skip(step / 2).step_by(step.max(1));
         let strangers = rays.iter().step_by(step.max(1)).zip(others).filter(|(one, other)| {

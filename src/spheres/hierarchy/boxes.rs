@@ -182,18 +182,6 @@ pub(super) struct Slabs {
 
 impl Slabs {
     #[inline(always)]
-    pub(super) fn with(reciprocal: Vec4, offset: Vec4, reach: f32) -> Self {
-        let mask = reciprocal.is_negative_bitmask();
-        let reach = reciprocal.abs() * reach;
-        Self {
-            reciprocal,
-            near: offset - reach,
-            far: offset + reach,
-            is_negative: [mask & 1 != 0, mask & 2 != 0, mask & 4 != 0],
-        }
-    }
-
-    #[inline(always)]
     pub(super) fn new(origin: Vec3, direction: Vec3, largest_coordinate: f32, margin: f32) -> Self {
         // The fourth number is there for the maximum.
         let origin = origin.extend(largest_coordinate);
@@ -201,14 +189,20 @@ impl Slabs {
         let magnitude = direction.abs();
         let least = Vec4::splat(magnitude.max_element() * LEAST_COMPONENT);
         let reciprocal = magnitude.max(least).recip();
-        let reach = reciprocal * (origin.abs().max_element() * margin);
+        let reach = origin.abs().max_element() * margin;
         let reciprocal = reciprocal.copysign(direction);
-        let offset = origin * reciprocal;
-        let mask = direction.is_negative_bitmask();
+        Self::from_reciprocal(reciprocal, -(origin * reciprocal), reach)
+    }
+
+    /// With r, which has the sign of the direction, - p r, and how far a plane may be missed.
+    #[inline(always)]
+    pub(super) fn from_reciprocal(reciprocal: Vec4, offset: Vec4, reach: f32) -> Self {
+        let reach = reciprocal.abs() * reach;
+        let mask = reciprocal.is_negative_bitmask();
         Self {
             reciprocal,
-            near: -offset - reach,
-            far: reach - offset,
+            near: offset - reach,
+            far: offset + reach,
             is_negative: [mask & 1 != 0, mask & 2 != 0, mask & 4 != 0],
         }
     }

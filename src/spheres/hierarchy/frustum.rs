@@ -34,7 +34,7 @@
 
 use glam::{Vec3, Vec4};
 
-use super::boxes::{Boxes, LEAST_COMPONENT};
+use super::boxes::{self, Boxes, LEAST_COMPONENT};
 use super::region::Region;
 use crate::Vector;
 use crate::spheres::lanes::{Instructions, LANES, Vectorized};
@@ -172,16 +172,15 @@ impl Slabs {
         reach: 0.0,
     };
 
+    /// Those of one ray, as for one ray alone.
     #[inline(always)]
-    pub(super) fn alone(&self, packet: &Packet, ray: usize) -> (super::boxes::Slabs, f32) {
-        let (number, lane) = (ray / LANES % (RAYS / LANES), ray % LANES);
-        let SixteenSlabs { reciprocal, offset } = &self.sixteens[number];
+    pub(super) fn alone(&self, ray: usize) -> boxes::Slabs {
+        let SixteenSlabs { reciprocal, offset } = &self.sixteens[ray / LANES % (RAYS / LANES)];
         let vector = |numbers: &[[f32; LANES]; 3]| {
-            let [x, y, z] = numbers.each_ref().map(|numbers| numbers[lane]);
+            let [x, y, z] = numbers.each_ref().map(|numbers| numbers[ray % LANES]);
             Vec4::new(x, y, z, 0.0)
         };
-        let slabs = super::boxes::Slabs::with(vector(reciprocal), vector(offset), self.reach);
-        (slabs, packet.end_of(ray))
+        boxes::Slabs::from_reciprocal(vector(reciprocal), vector(offset), self.reach)
     }
 }
 

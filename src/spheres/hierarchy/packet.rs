@@ -13,12 +13,25 @@ use super::tree::Tree;
 use super::walk::{Key, MOST_WAITING, child, entry, key};
 use crate::spheres::each::Collection;
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
+use crate::spheres::local::narrow;
 use crate::spheres::packet::cone::Cone;
 use crate::spheres::packet::{Around, Mask, Packet, Question, RAYS};
 use crate::spheres::scan::Bits;
 use crate::{Hit, Ray, Scalar, Sphere, Vector};
 
-const RATIO: u32 = 1;
+/// A bit for each box of a node or each sphere of a leaf.
+const ALL: u32 = 0xFFFF;
+
+/// So few rays are asked one by one at once, not first as one.
+const FEW: u32 = 4;
+
+/// What to ask a box of 16 rays takes is to what to ask a ray of 16 boxes, and to take the answers apart, as this to 1.
+const RAYS_FOR_A_BOX: u32 = 2;
+
+/// What a visit of a node takes whose boxes are asked of the rays one by one, and of a leaf, besides the rays: as tests of 16
+/// rays. A ray alone takes 2 of them a visit.
+const NODE: u32 = 10;
+const LEAF_ALONE: u32 = 5;
 
 /// Numbers of 16 boxes, where one instruction can write them.
 #[repr(align(64))]
@@ -57,38 +70,39 @@ impl<S: Scalar> Vectorized for InLeaf<'_, S> {
     }
 }
 
-/// Asks 16 boxes or spheres of each ray, one by one, and returns for each which rays may meet it.
+/// Asks rays one by one which of 16 boxes or spheres they may meet, and returns for each of these which rays do.
 #[inline(always)]
 fn one_by_one<I: Instructions>(
     instructions: I,
     rays: Mask,
-    wanted: u32,
     mut near: impl FnMut(usize) -> u32,
 ) -> [Mask; LANES] {
-    let mut bits = [[0; LANES]; RAYS / LANES];
+    let mut of_rays = [[0; LANES]; RAYS / LANES];
     let mut any = 0;
     for ray in Bits(rays) {
+        // One call only, or it would not be inlined.
         let near = near(ray);
         any |= near;
-        bits[ray / LANES % (RAYS / LANES)][ray % LANES] = near;
+        of_rays[ray / LANES % (RAYS / LANES)][ray % LANES] = near;
     }
-    let wanted = wanted & any;
     let mut masks = [0; LANES];
-    for lane in Bits(wanted.into()) {
-        for (bits, number) in bits.iter().zip(0..) {
-            let signs = bits.map(|bits: u32| f32::from_bits(bits << (31 - lane)));
-            masks[lane % LANES] |= Mask::from(instructions.signs(&signs)) << (number * LANES);
+    for lane in Bits(any.into()) {
+        for (near, number) in of_rays.iter().zip(0..) {
+            let shift = number * LANES;
+            if rays >> shift & 0xFFFF != 0 {
+                let signs = near.map(|near: u32| f32::from_bits(near << (31 - lane)));
+                masks[lane % LANES] |= Mask::from(instructions.signs(&signs)) << shift;
+            }
         }
     }
     masks
 }
 
-/// Asks which rays may meet each sphere of a leaf, one by one: where they are fewer than what 16 rays would have to be asked of.
+/// Asks which rays may meet each sphere of a leaf, one by one.
 struct InLeafAlone<'a, S> {
     leaf: &'a Leaf<S>,
     packet: &'a Packet,
     rays: Mask,
-    wanted: u32,
 }
 
 impl<S: Scalar> Vectorized for InLeafAlone<'_, S> {
@@ -96,8 +110,8 @@ impl<S: Scalar> Vectorized for InLeafAlone<'_, S> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, instructions: I) -> [Mask; LANES] {
-        let Self { leaf, packet, rays, wanted } = self;
-        one_by_one(instructions, rays, wanted, |ray| {
+        let Self { leaf, packet, rays } = self;
+        one_by_one(instructions, rays, |ray| {
             let (cone, end) = packet.alone(ray);
             cone.near(instructions, leaf.numbers(), end)
         })
@@ -106,11 +120,10 @@ impl<S: Scalar> Vectorized for InLeafAlone<'_, S> {
 
 /// Asks which rays may enter each box of a node, one by one.
 struct EnterAlone<'a> {
+    node: &'a Boxes,
     slabs: &'a Slabs,
     packet: &'a Packet,
-    boxes: &'a Boxes,
     rays: Mask,
-    wanted: u32,
 }
 
 impl Vectorized for EnterAlone<'_> {
@@ -118,11 +131,10 @@ impl Vectorized for EnterAlone<'_> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, instructions: I) -> [Mask; LANES] {
-        let Self { slabs, packet, boxes, rays, wanted } = self;
-        let mut entries = [0.0; LANES];
-        one_by_one(instructions, rays, wanted, |ray| {
-            let (slabs, end) = slabs.alone(packet, ray);
-            boxes.entered(instructions, &slabs, [packet.first, end], &mut entries)
+        let Self { node, slabs, packet, rays } = self;
+        one_by_one(instructions, rays, |ray| {
+            let (slabs, end) = (slabs.alone(ray), packet.end(ray));
+            node.entered(instructions, &slabs, [packet.first, end], &mut [0.0; LANES])
         })
     }
 }
@@ -132,8 +144,8 @@ impl<V: Vector> Collection<V> for Tree<V> {
         self.regions.first().map_or_else(
             || self.apart.around(),
             |whole| {
-                let radius = whole.extent * FAR;
-                Around::new(whole.center, radius * radius, whole.extent)
+                let (center, extent) = (narrow(whole.center), whole.extent);
+                Around { center, radius_squared: extent * FAR * (extent * FAR), extent }
             },
         )
     }
@@ -146,9 +158,9 @@ impl<V: Vector> Collection<V> for Tree<V> {
         let Some(whole) = self.regions.first().filter(|_| packet.alive != 0) else { return };
         let mut slabs = Slabs::EMPTY;
         lanes.run(Prepare::new(&mut slabs, packet, whole));
-        let ratio = crate::spheres::packet::tune(2, 1.0);
         let frustum = Frustum::new(packet, whole, MARGIN);
         let mut entries = Numbers([0.0; LANES]);
+        // What waits, which rays may enter it, and whether each of these has been asked.
         let mut waiting = ArrayVec::<(Key, Mask, bool), MOST_WAITING>::new();
         let (mut place, mut rays) = (whole.root, packet.alive);
         loop {
@@ -157,53 +169,56 @@ impl<V: Vector> Collection<V> for Tree<V> {
                     return;
                 }
             } else if let Some(node) = self.nodes.get(place as usize) {
-                let end = packet.farthest;
-                let mut entered =
-                    lanes.run(EnterAny { node, frustum: &frustum, end, entries: &mut entries });
-                let mut masks = [rays; LANES];
-                let are_tested = Q::IS_ANY_ORDER
-                    && (rays.count_ones() as f32) < ratio * (entered.count_ones() * Packet::tests(rays)) as f32;
-                if are_tested && entered != 0 {
-                    masks = lanes.run(EnterAlone {
-                        slabs: &slabs,
-                        packet,
-                        boxes: node,
-                        rays,
-                        wanted: entered,
-                    });
-                }
-                // The nearest is next, and the others as they come.
+                let (end, count) = (packet.farthest, rays.count_ones());
+                let mut entered = if Q::IN_ANY_ORDER && count <= FEW {
+                    ALL
+                } else {
+                    lanes.run(EnterAny { node, frustum: &frustum, end, entries: &mut entries })
+                };
+                // Where the order matters, many rays have no more to ask when it is the farther boxes' turn.
+                let boxes = entered.count_ones() * Packet::tests(rays);
+                let are_asked = Q::IN_ANY_ORDER && count < RAYS_FOR_A_BOX * boxes;
+                let masks = if are_asked {
+                    if !packet.pays(NODE + count, 2 * count) {
+                        return;
+                    }
+                    lanes.run(EnterAlone { node, slabs: &slabs, packet, rays })
+                } else {
+                    [rays; LANES]
+                };
                 let first = waiting.len();
                 while entered != 0 {
                     let lane = entered.trailing_zeros();
                     entered &= entered - 1;
-                    // A box, by its node and its lane: there are fewer than 32 bits can tell apart.
-                    let key = key(entries.0[lane as usize % LANES], place * 16 + lane);
-                    let mask = masks[lane as usize % LANES];
-                    if mask != 0 {
-                        let _ = waiting.try_push((key, mask, are_tested));
+                    let rays = masks[lane as usize % LANES];
+                    if rays != 0 {
+                        let entry =
+                            if Q::IN_ANY_ORDER { 0.0 } else { entries.0[lane as usize % LANES] };
+                        // A box, by its node and its lane: there are fewer than 32 bits can tell apart.
+                        let _ = waiting.try_push((key(entry, place * 16 + lane), rays, are_asked));
                     }
                 }
-                let pushed = waiting.get_mut(first..).unwrap_or_default();
-                if !Q::IS_ANY_ORDER { pushed.sort_unstable_by_key(|&(key, ..)| Reverse(key)); }
+                if !Q::IN_ANY_ORDER {
+                    // The nearest is next.
+                    let pushed = waiting.get_mut(first..).unwrap_or_default();
+                    pushed.sort_unstable_by_key(|&(key, ..)| Reverse(key));
+                }
                 if node.region().is_some() {
                     packet.leave_alone(rays);
                 }
             }
             loop {
-                let Some((key, asked, is_tested)) = waiting.pop() else { return };
-                let asked = asked & packet.alive;
-                let (place_of_node, lane) =
-                    (child(key) as usize / LANES, child(key) as usize % LANES);
-                if entry(key) > packet.farthest || asked == 0 {
+                let Some((key, waiting_rays, are_asked)) = waiting.pop() else { return };
+                rays = waiting_rays & packet.alive;
+                if entry(key) > packet.farthest || rays == 0 {
                     continue;
                 }
-                let Some(boxes) = self.nodes.get(place_of_node) else { continue };
-                if is_tested {
-                    rays = asked;
-                } else {
-                    rays = lanes.run(Enter { slabs: &slabs, packet, boxes, lane, rays: asked });
-                    if !packet.pays(2 + Packet::tests(asked), 2 * rays.count_ones()) {
+                let (node, lane) = (child(key) as usize / LANES, child(key) as usize % LANES);
+                let Some(boxes) = self.nodes.get(node) else { continue };
+                if !are_asked {
+                    let tests = Packet::tests(rays);
+                    rays = lanes.run(Enter { slabs: &slabs, packet, boxes, lane, rays });
+                    if !packet.pays(2 + tests, 2 * rays.count_ones()) {
                         return;
                     }
                 }
@@ -253,16 +268,18 @@ impl<V: Vector> Tree<V> {
         question: &mut Q,
     ) -> bool {
         let Some(leaf) = self.leaves.get(place as usize) else { return true };
-        let near = lanes.run(InLeaf { leaf, cone: &packet.cone, end: packet.farthest });
+        let (alone, end) = (rays.count_ones(), packet.farthest);
+        let near =
+            if alone <= FEW { ALL } else { lanes.run(InLeaf { leaf, cone: &packet.cone, end }) };
         if near == 0 {
             return true;
         }
-        let (alone, together) = (rays.count_ones(), near.count_ones() * Packet::tests(rays));
-        if !packet.pays(alone.min(together), alone) {
+        let together = near.count_ones() * Packet::tests(rays);
+        if !packet.pays(LEAF_ALONE + alone.min(together), 2 * alone) {
             return false;
         }
         let of_spheres = if alone < together {
-            lanes.run(InLeafAlone { leaf, packet, rays, wanted: near })
+            lanes.run(InLeafAlone { leaf, packet, rays })
         } else {
             [rays; LANES]
         };
