@@ -8,7 +8,7 @@ use super::lanes::Lanes;
 use super::local::{narrow, to_f32};
 use super::middle::Middle;
 use super::packet::bounds::{Meet, Met};
-use super::packet::{Around, Mask, Packet, Question, RAYS};
+use super::packet::{Around, Mask, Packet, Question, RAYS, first};
 use super::scan::Bits;
 use super::{SphereBvh, Spheres};
 use crate::order::{is_nearer, next_above};
@@ -219,10 +219,8 @@ fn each<V: Vector, T>(
             #[cfg(test)]
             tests::count(asked);
         }
-        for ((place, ray), answer) in rays.iter().enumerate().zip(answers) {
-            if asked >> place & 1 == 0 {
-                *answer = alone(ray);
-            }
+        for place in Bits(!asked & first(count)) {
+            answers[place] = alone(&rays[place]);
         }
     }
 }

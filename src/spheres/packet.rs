@@ -61,6 +61,11 @@ const SLOPE_ERROR: f32 = 8.0 * f32::EPSILON;
 /// A bit for each ray of a packet.
 pub(super) type Mask = u64;
 
+/// The first rays of a packet, some at least.
+pub(super) const fn first(rays: usize) -> Mask {
+    Mask::MAX >> (RAYS - rays)
+}
+
 /// 16 rays, and the nearest sphere so far of each.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
@@ -148,7 +153,7 @@ impl Packet {
                 sixteen.set(lane, ray);
             }
         }
-        let given = Mask::MAX >> (RAYS - rays.len().clamp(1, RAYS));
+        let given = first(rays.len());
         let allowed = given & lanes.run(Allowed { sixteens, around });
         if allowed == 0 {
             return 0;
@@ -171,7 +176,7 @@ impl Packet {
         self.cone = cone;
         self.alive = allowed;
         self.patience = PATIENCE;
-        for place in Bits(!allowed & (Mask::MAX >> (RAYS - self.count * LANES))) {
+        for place in Bits(!allowed & first(self.count * LANES)) {
             self.silence(place);
         }
         allowed
