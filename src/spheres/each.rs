@@ -159,7 +159,7 @@ const fn is_single<V: Vector>() -> bool {
 }
 
 /// Finds the nearest hit of each ray.
-fn nearest_each<V: Vector, C: Collection<V>>(
+pub(super) fn nearest_each<V: Vector, C: Collection<V>>(
     collection: &C,
     lanes: Lanes,
     rays: &[Ray<V>],
@@ -178,7 +178,7 @@ fn nearest_each<V: Vector, C: Collection<V>>(
 }
 
 /// Finds whether each ray hits anything.
-fn occludes_each<V: Vector>(
+pub(super) fn occludes_each<V: Vector>(
     collection: &impl Collection<V>,
     lanes: Lanes,
     rays: &[Ray<V>],
@@ -285,7 +285,7 @@ impl<V: Vector> Spheres<V> {
     /// # }
     /// ```
     pub fn nearest_each(&self, rays: &[Ray<V>], range: Range<V::Scalar>, found: &mut [Found<V>]) {
-        self.nearest_each_in_lanes(Lanes::best(), rays, &range, found);
+        nearest_each(self, Lanes::best(), rays, &range, found);
     }
 
     /// Finds for each ray whether it hits any sphere with `t` in `range`, for shadow rays: writes what
@@ -294,73 +294,20 @@ impl<V: Vector> Spheres<V> {
     /// What [`nearest_each`](Self::nearest_each) says of the order of rays and of slices that differ in length holds here, too.
     /// All rays share the range: give the shadow rays to a lamp directions that end there, and `0.0..1.0`.
     pub fn occludes_each(&self, rays: &[Ray<V>], range: Range<V::Scalar>, occluded: &mut [bool]) {
-        self.occludes_each_in_lanes(Lanes::best(), rays, &range, occluded);
-    }
-
-    /// [`nearest_each`](Self::nearest_each) with that set of instructions.
-    pub(super) fn nearest_each_in_lanes(
-        &self,
-        lanes: Lanes,
-        rays: &[Ray<V>],
-        range: &Range<V::Scalar>,
-        found: &mut [Found<V>],
-    ) {
-        nearest_each(self, lanes, rays, range, found);
-    }
-
-    /// [`occludes_each`](Self::occludes_each) with that set of instructions.
-    pub(super) fn occludes_each_in_lanes(
-        &self,
-        lanes: Lanes,
-        rays: &[Ray<V>],
-        range: &Range<V::Scalar>,
-        occluded: &mut [bool],
-    ) {
-        occludes_each(self, lanes, rays, range, occluded);
+        occludes_each(self, Lanes::best(), rays, &range, occluded);
     }
 }
 
 impl<V: Vector> SphereBvh<V> {
     /// Finds the nearest hit of each ray with `t` in `range`, and the index of its sphere: writes what [`nearest`](Self::nearest)
-    /// returns for `rays[i]` to `found[i]`, bit for bit.
-    ///
-    /// This takes less time than to ask one by one where rays that lie together follow each other, as those of the pixels of a
-    /// small square do: give as many at once as there are, best in groups of 64, and of 16 in these. Any rays in any order are
-    /// allowed; those that share nothing take about as long as one by one, and so do all in `f64`.
-    ///
-    /// If the slices differ in length, the shorter one counts: rays without a place in `found` are not asked, and places in
-    /// `found` without a ray are left as they are.
-    ///
-    /// Nothing is allocated.
-    ///
-    /// ```
-    /// use eyeray::{Camera, Sphere, SphereBvh};
-    /// use glam::{Vec3, vec2};
-    ///
-    /// # fn main() -> Result<(), eyeray::CameraError> {
-    /// let (eye, target) = (Vec3::Z * 5.0, Vec3::ZERO);
-    /// let camera = Camera::perspective_fov(eye, target, Vec3::Y, 1.0, 1.0)?;
-    /// let spheres: SphereBvh = [Sphere::new(target, 1.0)].into_iter().collect();
-    ///
-    /// // A square of 8 by 8 pixels around the middle of a picture of 640 by 640.
-    /// let pixel = |i: u8| vec2(316.5 + f32::from(i % 8), 316.5 + f32::from(i / 8));
-    /// let rays: Vec<_> = (0..64).map(|i| camera.pixel_ray(pixel(i), 640, 640)).collect();
-    /// let mut found = [None; 64];
-    /// spheres.nearest_each(&rays, 0.0..f32::INFINITY, &mut found);
-    /// assert_eq!(found[27], spheres.nearest(&rays[27], 0.0..f32::INFINITY));
-    /// assert!(found.iter().all(|found| found.is_some_and(|(index, _)| index == 0)));
-    /// # Ok(())
-    /// # }
-    /// ```
+    /// returns for `rays[i]` to `found[i]`, bit for bit, as [`Spheres::nearest_each`] does. That has an example, and says of
+    /// which rays this takes less time, and what slices are if they differ in length.
     pub fn nearest_each(&self, rays: &[Ray<V>], range: Range<V::Scalar>, found: &mut [Found<V>]) {
         self.nearest_each_in_lanes(Lanes::best(), rays, &range, found);
     }
 
     /// Finds for each ray whether it hits any sphere with `t` in `range`, for shadow rays: writes what
-    /// [`occludes`](crate::Hittable::occludes) returns for `rays[i]` to `occluded[i]`.
-    ///
-    /// What [`nearest_each`](Self::nearest_each) says of the order of rays and of slices that differ in length holds here, too.
-    /// All rays share the range: give the shadow rays to a lamp directions that end there, and `0.0..1.0`.
+    /// [`occludes`](crate::Hittable::occludes) returns for `rays[i]` to `occluded[i]`, as [`Spheres::occludes_each`] does.
     pub fn occludes_each(&self, rays: &[Ray<V>], range: Range<V::Scalar>, occluded: &mut [bool]) {
         self.occludes_each_in_lanes(Lanes::best(), rays, &range, occluded);
     }

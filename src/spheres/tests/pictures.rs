@@ -47,11 +47,11 @@ impl<V: Tested> Scene<V> {
             // What is there before makes no difference.
             let old = Some((7, Hit::new(V::Scalar::ONE, V::ZERO, V::ZERO, V::Scalar::ZERO)));
             let mut by_scan = std::vec![old; rays.len()];
-            scan.nearest_each_in_lanes(lanes, rays, range, &mut by_scan);
+            each::nearest_each(scan, lanes, rays, range, &mut by_scan);
             let mut by_bvh = std::vec![old; rays.len()];
             bvh.nearest_each_in_lanes(lanes, rays, range, &mut by_bvh);
             let mut occluded_by_scan = std::vec![true; rays.len()];
-            scan.occludes_each_in_lanes(lanes, rays, range, &mut occluded_by_scan);
+            each::occludes_each(scan, lanes, rays, range, &mut occluded_by_scan);
             let mut occluded_by_bvh = std::vec![true; rays.len()];
             bvh.occludes_each_in_lanes(lanes, rays, range, &mut occluded_by_bvh);
             for (place, (ray, expected)) in rays.iter().zip(&expected).enumerate() {
@@ -128,8 +128,8 @@ fn neighbors_are_asked_together() {
             let (scene, rays) = tile(&mut rng, count);
             for lanes in Lanes::available() {
                 let _ = each::tests::together();
-                scene.scan.nearest_each_in_lanes(lanes, &rays, &all::<Vec3>(), &mut [None; 64]);
-                scene.scan.occludes_each_in_lanes(lanes, &rays, &all::<Vec3>(), &mut [false; 64]);
+                each::nearest_each(&scene.scan, lanes, &rays, &all::<Vec3>(), &mut [None; 64]);
+                each::occludes_each(&scene.scan, lanes, &rays, &all::<Vec3>(), &mut [false; 64]);
                 together[0] += each::tests::together();
                 scene.bvh.nearest_each_in_lanes(lanes, &rays, &all::<Vec3>(), &mut [None; 64]);
                 scene.bvh.occludes_each_in_lanes(lanes, &rays, &all::<Vec3>(), &mut [false; 64]);
