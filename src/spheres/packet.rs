@@ -48,16 +48,6 @@ const LEAST_POSITIVE: f32 = f32::from_bits(1);
 /// u, and 3 u more are for the product.
 const LENGTH_FACTOR: f32 = 1.0 + 4.0 * f32::EPSILON;
 
-/// The coordinates of the rays at t are at least those of the lowest origin, and t times the least direction. At the end E of the
-/// range, the lowest point may be higher than that: where rays meet, as at a lamp. As a function of t, the lowest point is the
-/// least of linear functions, which is concave. So it is above the straight line from the lowest origin to the lowest point at E,
-/// the slope of which is (x - p) / E.
-///
-/// With P and D for the largest coordinate of an origin and of a direction, x is off by 2 u (P + E D), x - p by that and u (2 P +
-/// E D), and so are the difference with the error and the quotient: together by at most 9 u (P + E D). The slope is lowered by 16
-/// u of that, over E.
-const SLOPE_ERROR: f32 = 8.0 * f32::EPSILON;
-
 /// A bit for each ray of a packet.
 pub(super) type Mask = u64;
 
@@ -101,10 +91,7 @@ pub(super) struct Packet {
     pub(super) first: f32,
     /// No sphere is wanted beyond it by any ray.
     pub(super) farthest: f32,
-    /// The least and the largest of all origins. With these, and t times those of the directions, all points at any t up to the
-    /// end of the range are bounded.
-    pub(super) origins: [Vec3; 2],
-    pub(super) directions: [Vec3; 2],
+    pub(super) extent: Extent,
     pub(super) cone: Cone,
 }
 
@@ -118,8 +105,7 @@ impl Packet {
         patience: 0,
         first: 0.0,
         farthest: 0.0,
-        origins: [Vec3::ZERO; 2],
-        directions: [Vec3::ZERO; 2],
+        extent: Extent { origins: [Vec3::ZERO; 2], directions: [Vec3::ZERO; 2] },
         cone: Cone::EMPTY,
     };
 
@@ -167,14 +153,12 @@ impl Packet {
         }
         self.farthest = end;
         let extent = lanes.run(Prepare { sixteens, end });
-        (self.origins, self.directions) = (extent.origins, extent.slopes(end, SLOPE_ERROR));
         // Not the least positive number: to compute with that takes many times as long.
         let from = if start > 0.0 { start } else { 0.0 };
-        let Some(cone) = Cone::around(lanes, sixteens, &extent, from, end, cone::MARGINS) else {
+        let Some(cone) = Cone::around(lanes, sixteens, &extent, from, cone::MARGINS) else {
             return 0;
         };
-        self.cone = cone;
-        self.alive = allowed;
+        (self.extent, self.cone, self.alive) = (extent, cone, allowed);
         self.patience = PATIENCE;
         for place in Bits(!allowed & first(self.count * LANES)) {
             self.silence(place);
@@ -457,62 +441,31 @@ impl Vectorized for Prepare<'_> {
         }
         let smaller = |a: f32, b: f32| if a < b { a } else { b };
         let larger = |a: f32, b: f32| if a > b { a } else { b };
-        let mut extent = Extent::default();
+        let mut extent = Packet::EMPTY.extent;
         for axis in 0..3 {
-            let [mut p_low, mut d_low, mut q_low] = [[f32::MAX; LANES]; 3];
-            let [mut p_high, mut d_high, mut q_high] = [[f32::MIN; LANES]; 3];
+            let [mut p_low, mut d_low] = [[f32::MAX; LANES]; 2];
+            let [mut p_high, mut d_high] = [[f32::MIN; LANES]; 2];
             for Sixteen { origin, direction, .. } in &*sixteens {
                 let (origin, direction) = (&origin[axis], &direction[axis]);
                 for lane in 0..LANES {
-                    let (p, d) = (origin[lane], direction[lane]);
-                    let q = instructions.multiply_add(d, end, p);
-                    p_low[lane] = smaller(p_low[lane], p);
-                    d_low[lane] = smaller(d_low[lane], d);
-                    q_low[lane] = smaller(q_low[lane], q);
-                    p_high[lane] = larger(p_high[lane], p);
-                    d_high[lane] = larger(d_high[lane], d);
-                    q_high[lane] = larger(q_high[lane], q);
+                    p_low[lane] = smaller(p_low[lane], origin[lane]);
+                    d_low[lane] = smaller(d_low[lane], direction[lane]);
+                    p_high[lane] = larger(p_high[lane], origin[lane]);
+                    d_high[lane] = larger(d_high[lane], direction[lane]);
                 }
             }
             extent.origins[0][axis] = reduce(p_low, smaller);
             extent.origins[1][axis] = reduce(p_high, larger);
             extent.directions[0][axis] = reduce(d_low, smaller);
             extent.directions[1][axis] = reduce(d_high, larger);
-            extent.ends[0][axis] = reduce(q_low, smaller);
-            extent.ends[1][axis] = reduce(q_high, larger);
         }
         extent
     }
 }
 
-/// The least and the largest of all origins, all directions, and all points at the end of the range, which may overflow.
-#[derive(Clone, Copy, Debug, Default)]
-struct Extent {
-    origins: [Vec3; 2],
-    directions: [Vec3; 2],
-    ends: [Vec3; 2],
-}
-
-impl Extent {
-    /// The largest component of all.
-    fn largest([low, high]: [Vec3; 2]) -> f32 {
-        low.abs().max(high.abs()).max_element()
-    }
-
-    /// The `end`, if all points there are of a size to compute with.
-    fn end_in_reach(&self, end: f32) -> Option<f32> {
-        (end * Self::largest(self.directions) <= LARGEST).then_some(end)
-    }
-
-    /// The slopes of lines that bound all points up to the end of the range, from the least and the largest origin on: see
-    /// [`SLOPE_ERROR`].
-    fn slopes(&self, end: f32, error: f32) -> [Vec3; 2] {
-        let Self { origins, directions: [low, high], ends } = *self;
-        let Some(end) = self.end_in_reach(end) else { return [low, high] };
-        let error = (Self::largest(origins) + end * Self::largest([low, high])) * error;
-        [
-            low.max(((ends[0] - origins[0]) - error) / end),
-            high.min(((ends[1] - origins[1]) + error) / end),
-        ]
-    }
+/// The least and the largest of all origins, and of all directions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    pub(super) origins: [Vec3; 2],
+    pub(super) directions: [Vec3; 2],
 }

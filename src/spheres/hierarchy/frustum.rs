@@ -2,8 +2,8 @@
 //! which of 16 rays pass through a box. A box may be kept though no ray passes through it; it is never dropped if a sphere in it
 //! is hit.
 //!
-//! **The frustum.** Up to the end of the range, the coordinates of all rays at t are between those of two lines: from p₀ along
-//! d₀, and from p₁ along d₁, the least and the largest by axis. So a hit at t in a box from b₀ to b₁ has
+//! **The frustum.** The coordinates of all rays at t are between those of two lines: from p₀ along d₀, and from p₁ along d₁, the
+//! least and the largest by axis. So a hit at t in a box from b₀ to b₁ has
 //!
 //! ```text
 //! p₀ + t d₀ ≤ b₁   and   p₁ + t d₁ ≥ b₀
@@ -85,10 +85,10 @@ pub(super) struct Frustum {
 impl Frustum {
     pub(super) fn new<V: Vector>(packet: &Packet, region: &Region<V>, margin: f32) -> Self {
         let center = narrow(region.center);
-        let [low, high] = packet.origins.map(|origin| origin - center);
-        let [least, greatest] = packet.directions;
+        let [low, high] = packet.extent.origins.map(|origin| origin - center);
+        let [least, greatest] = packet.extent.directions;
         let reach = margin * largest([low, high]).max(region.extent);
-        let smallest = largest(packet.directions) * LEAST_COMPONENT;
+        let smallest = largest(packet.extent.directions) * LEAST_COMPONENT;
         let none = [Bound::none(f32::NEG_INFINITY), Bound::none(f32::INFINITY)];
         let mut frustum = Self { below: none, above: none, first: packet.first };
         for axis in 0..3 {
@@ -211,7 +211,8 @@ impl Vectorized for Prepare<'_> {
     #[inline(always)]
     fn run<I: Instructions>(self, _: I) {
         let Self { slabs, packet, center, extent, margin } = self;
-        slabs.reach = margin * largest(packet.origins.map(|origin| origin - center)).max(extent);
+        slabs.reach =
+            margin * largest(packet.extent.origins.map(|origin| origin - center)).max(extent);
         for (slabs, sixteen) in slabs.sixteens.iter_mut().zip(packet.sixteens()) {
             let Sixteen { origin, direction: [x, y, z], .. } = sixteen;
             let larger = |a: f32, b: f32| if a > b { a } else { b };

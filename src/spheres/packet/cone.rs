@@ -19,10 +19,6 @@
 //! For with v = (t - m) |D|, the square of its distance from P + t D is at least |w|² + v², as v and w·D have no signs that would
 //! make it less, and √(|w|² + v²) - k v is least where v = k |w| / √(1 - k²): there it is √(1 - k²) |w|.
 //!
-//! **Rays that come together**, as at a lamp. If the range ends at E, then the distance from P + t D, which is convex in t, is
-//! below the straight line from its value at 0 to that at E. So σ may be the slope of that line, (ρ at E - ρ) / E, which is
-//! negative where the rays come together. All of the above holds for that, too, while |k| < 1.
-//!
 //! **The error.** With u = 2⁻²⁴, as in leaves: for R the right side, m is off by 9 u |o| / |D|, and so σ m / √(1 - k²) by 6 u
 //! |o|, for |k| ≤ ½; |w| is off by 11 u (R + m |D|) for what hits, its square by 4 u R², 2 u of R; R has 3 roundings. Together 22
 //! u R and 17 u m |D|: the margins are [`MARGIN`], 32 u of each. ρ and σ are made larger for the rounding of their own: see
@@ -75,30 +71,24 @@ impl Cone {
         first: 0.0,
     };
 
-    /// The cone around rays, if it is not too wide. A distance from the axis is off by 5 u of itself, that at the end by 3 u (ρ +
-    /// E σ) besides: with the margin, that is more than allowed for.
+    /// The cone around rays, if it is not too wide. A distance from the axis is off by 5 u of itself: with the margin, that is
+    /// more than allowed for.
     #[expect(clippy::cast_possible_truncation, reason = "the margin has room for rounding")]
     pub(super) fn around(
         lanes: Lanes,
         sixteens: &[Sixteen],
         extent: &Extent,
         first: f32,
-        end: f32,
         margins: [f64; 2],
     ) -> Option<Self> {
         let middle = |[low, high]: [Vec3; 2]| low * 0.5 + high * 0.5;
         let axis = [middle(extent.origins), middle(extent.directions)];
-        let end = extent.end_in_reach(end);
-        let distances = lanes.run(Distances { sixteens, axis, end: end.unwrap_or(0.0) });
-        let [base, mut spread, at_end] =
-            distances.map(|square| sqrt(f64::from(square)) * (1.0 + MARGIN));
-        if let Some(end) = end {
-            let end = f64::from(end);
-            spread = spread.min((at_end + (base + end * spread) * MARGIN - base) / end);
-        }
+        let [base, spread] = lanes
+            .run(Distances { sixteens, axis })
+            .map(|square| sqrt(f64::from(square)) * (1.0 + MARGIN));
         let length = axis[1].as_dvec3().length();
         let k = spread / length;
-        if k.is_nan() || k.abs() > WIDEST {
+        if k.is_nan() || k > WIDEST {
             return None;
         }
         let factor = sqrt(1.0 - k * k).recip();
@@ -110,7 +100,7 @@ impl Cone {
             over_a: over_a.as_vec3(),
             factor: (factor * (1.0 + of_radius)) as f32,
             base: (base * factor * (1.0 + of_radius) + LEAST) as f32,
-            widening: (widening.max(widening * (1.0 + of_radius)) + length * of_distance) as f32,
+            widening: (widening * (1.0 + of_radius) + length * of_distance) as f32,
             first,
         })
     }
@@ -175,36 +165,30 @@ impl Cone {
     }
 }
 
-/// Computes the squares of the largest distances from an axis: of origins, of directions, and at the end of the range.
+/// Computes the squares of the largest distances from an axis, of origins and of directions.
 struct Distances<'a> {
     sixteens: &'a [Sixteen],
     axis: [Vec3; 2],
-    end: f32,
 }
 
 impl Vectorized for Distances<'_> {
-    type Output = [f32; 3];
+    type Output = [f32; 2];
 
     #[inline(always)]
-    fn run<I: Instructions>(self, instructions: I) -> [f32; 3] {
-        let Self { sixteens, axis: [origin, direction], end } = self;
+    fn run<I: Instructions>(self, instructions: I) -> [f32; 2] {
+        let Self { sixteens, axis } = self;
         let larger = |a: f32, b: f32| if a > b { a } else { b };
-        let [mut at_start, mut of_direction, mut at_end] = [[0.0; LANES]; 3];
+        let mut distances = [[0.0; LANES]; 2];
         for sixteen in sixteens {
-            let ([p, q, r], [x, y, z]) = (&sixteen.origin, &sixteen.direction);
-            for lane in 0..LANES {
-                let [p, q, r] = [p[lane] - origin.x, q[lane] - origin.y, r[lane] - origin.z];
-                let [x, y, z] =
-                    [x[lane] - direction.x, y[lane] - direction.y, z[lane] - direction.z];
-                at_start[lane] = larger(at_start[lane], square(instructions, p, q, r));
-                of_direction[lane] = larger(of_direction[lane], square(instructions, x, y, z));
-                let p = instructions.multiply_add(end, x, p);
-                let q = instructions.multiply_add(end, y, q);
-                let r = instructions.multiply_add(end, z, r);
-                at_end[lane] = larger(at_end[lane], square(instructions, p, q, r));
+            let both = [&sixteen.origin, &sixteen.direction];
+            for (([x, y, z], middle), distances) in both.iter().zip(axis).zip(&mut distances) {
+                for lane in 0..LANES {
+                    let [x, y, z] = [x[lane] - middle.x, y[lane] - middle.y, z[lane] - middle.z];
+                    distances[lane] = larger(distances[lane], square(instructions, x, y, z));
+                }
             }
         }
-        [at_start, of_direction, at_end].map(|numbers| super::reduce(numbers, larger))
+        distances.map(|distances| super::reduce(distances, larger))
     }
 }
 
