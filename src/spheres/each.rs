@@ -91,6 +91,7 @@ struct Occluded<'a, V: Vector> {
 }
 
 impl<V: Vector> Question<V> for Occluded<'_, V> {
+    // Farther apart than where the order matters, but not so far that rays in any order are taken.
     const NEIGHBORS: [f32; 2] = [0.3, 0.25];
     const IN_ANY_ORDER: bool = true;
 

@@ -30,7 +30,8 @@
 //! the replaced                                                     4 u L r
 //! ```
 //!
-//! Together 18 u L r. The half-width is made larger by [`RAY_MARGIN`] L, 24 u L, which takes a rounding.
+//! Together 18 u L r. The half-width is made larger by [`RAY_MARGIN`] L, 24 u L, which takes a rounding. Of one ray, 16 boxes are
+//! asked as without a packet, with the same r and p r: that takes less than 18 u L r, as it has no c and h.
 
 use glam::{Vec3, Vec4};
 

@@ -1,4 +1,10 @@
 //! The way of a packet through the hierarchy: as that of one ray, with what passes for any ray asked of each.
+//!
+//! A box that some ray may enter is asked of 16 rays at a time. Where rays are too far apart to share much, as shadow rays from
+//! hits at many depths, each box of a node is entered by few of them, and it takes less to ask each ray of 16 boxes at a time. It
+//! still takes less than to ask one ray after the other: a node is fetched once for all, and nothing waits for which box a ray
+//! enters next. That is done only for occlusion, where the order does not matter. To find the nearest hit, rays would be asked
+//! of boxes that they need not enter once they have found it.
 
 use core::cmp::Reverse;
 use core::ops::Range;
@@ -22,16 +28,17 @@ use crate::{Hit, Ray, Scalar, Sphere, Vector};
 /// A bit for each box of a node or each sphere of a leaf.
 const ALL: u32 = 0xFFFF;
 
-/// So few rays are asked one by one at once, not first as one.
+/// So few rays are asked one by one at once, not together before that.
 const FEW: u32 = 4;
 
-/// What to ask a box of 16 rays takes is to what to ask a ray of 16 boxes, and to take the answers apart, as this to 1.
+/// What a test of a box with 16 rays takes is to that of 16 boxes with one ray as this to 1.
 const RAYS_FOR_A_BOX: u32 = 2;
 
-/// What a visit of a node takes whose boxes are asked of the rays one by one, and of a leaf, besides the rays: as tests of 16
-/// rays. A ray alone takes 2 of them a visit.
-const NODE: u32 = 10;
-const LEAF_ALONE: u32 = 5;
+/// What a visit takes besides the tests, in tests: of a node whose boxes are asked of rays one by one, and of a leaf. (One ray at a
+/// time, a visit takes 2 tests with all.) With less, rays that have nothing in common are given up too late: `cargo bench --bench
+/// pictures` has them, shuffled.
+const OF_NODE: u32 = 10;
+const OF_LEAF: u32 = 5;
 
 /// Numbers of 16 boxes, where one instruction can write them.
 #[repr(align(64))]
@@ -80,7 +87,7 @@ fn one_by_one<I: Instructions>(
     let mut of_rays = [[0; LANES]; RAYS / LANES];
     let mut any = 0;
     for ray in Bits(rays) {
-        // One call only, or it would not be inlined.
+        // The only call, or it would not be inlined.
         let near = near(ray);
         any |= near;
         of_rays[ray / LANES % (RAYS / LANES)][ray % LANES] = near;
@@ -119,11 +126,11 @@ impl<S: Scalar> Vectorized for InLeafAlone<'_, S> {
 }
 
 /// Asks which rays may enter each box of a node, one by one.
-struct EnterAlone<'a> {
-    node: &'a Boxes,
-    slabs: &'a Slabs,
-    packet: &'a Packet,
-    rays: Mask,
+pub(super) struct EnterAlone<'a> {
+    pub(super) node: &'a Boxes,
+    pub(super) slabs: &'a Slabs,
+    pub(super) packet: &'a Packet,
+    pub(super) rays: Mask,
 }
 
 impl Vectorized for EnterAlone<'_> {
@@ -179,7 +186,7 @@ impl<V: Vector> Collection<V> for Tree<V> {
                 let boxes = entered.count_ones() * Packet::tests(rays);
                 let are_asked = Q::IN_ANY_ORDER && count < RAYS_FOR_A_BOX * boxes;
                 let masks = if are_asked {
-                    if !packet.pays(NODE + count, 2 * count) {
+                    if !packet.pays(OF_NODE + count, 2 * count) {
                         return;
                     }
                     lanes.run(EnterAlone { node, slabs: &slabs, packet, rays })
@@ -275,7 +282,7 @@ impl<V: Vector> Tree<V> {
             return true;
         }
         let together = near.count_ones() * Packet::tests(rays);
-        if !packet.pays(LEAF_ALONE + alone.min(together), 2 * alone) {
+        if !packet.pays(OF_LEAF + alone.min(together), 2 * alone) {
             return false;
         }
         let of_spheres = if alone < together {

@@ -4,6 +4,7 @@ use glam::DVec3;
 use sobol_burley::sample;
 
 use super::super::boxes::MARGIN;
+use super::super::packet::EnterAlone;
 use super::*;
 use crate::order::next_above;
 use crate::spheres::lanes::Lanes;
@@ -48,10 +49,10 @@ fn along_a_face(case: u32) -> (Ray, Sphere) {
     (Ray::new(touching - direction * to_f32(random(8) * 200.0), direction), sphere)
 }
 
-/// How many of the boxes of spheres that are hit near a face of the box are dropped by the frustum, and by the rays, with these
-/// margins.
-fn dropped([of_frustum, of_rays]: [f32; 2], lanes: Lanes, cases: u32) -> [u32; 2] {
-    let (mut hits, mut dropped) = (0, [0; 2]);
+/// How many of the boxes of spheres that are hit near a face of the box are dropped by the frustum, by 16 rays, and by one, with
+/// these margins.
+fn dropped([of_frustum, of_rays]: [f32; 2], lanes: Lanes, cases: u32) -> [u32; 3] {
+    let (mut hits, mut dropped) = (0, [0; 3]);
     let (mut packet, mut slabs) = (Packet::EMPTY, Slabs::EMPTY);
     for case in 0..cases {
         let (ray, sphere) = along_a_face(case);
@@ -104,6 +105,9 @@ fn dropped([of_frustum, of_rays]: [f32; 2], lanes: Lanes, cases: u32) -> [u32; 2
             let rays =
                 lanes.run(Enter { slabs: &slabs, packet, boxes: &boxes, lane: LANE, rays: 1 });
             dropped[1] += u32::from(rays == 0);
+            let masks = lanes.run(EnterAlone { node: &boxes, slabs: &slabs, packet, rays: 1 });
+            assert!((0..LANES).all(|lane| lane == LANE || masks[lane] == 0), "{masks:?}");
+            dropped[2] += u32::from(masks[LANE] == 0);
         }
     }
     assert!(hits > cases / 4, "{hits}");
@@ -113,14 +117,14 @@ fn dropped([of_frustum, of_rays]: [f32; 2], lanes: Lanes, cases: u32) -> [u32; 2
 #[test]
 fn drop_no_box_of_a_sphere_that_is_hit() {
     for lanes in Lanes::available() {
-        assert_eq!(dropped([MARGIN, RAY_MARGIN], lanes, 20_000), [0, 0], "{lanes:?}");
+        assert_eq!(dropped([MARGIN, RAY_MARGIN], lanes, 20_000), [0; 3], "{lanes:?}");
     }
 }
 
 #[test]
 fn need_their_margins() {
     for lanes in Lanes::available() {
-        let [by_frustum, by_rays] = dropped([0.0, 0.0], lanes, 20_000);
-        assert!(by_frustum > 0 && by_rays > 0, "{lanes:?}, {by_frustum}, {by_rays}");
+        let dropped = dropped([0.0, 0.0], lanes, 20_000);
+        assert!(dropped.iter().all(|&dropped| dropped > 0), "{lanes:?}, {dropped:?}");
     }
 }
