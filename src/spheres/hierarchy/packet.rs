@@ -34,9 +34,9 @@ const FEW: u32 = 4;
 /// What a test of a box with 16 rays takes is to that of 16 boxes with one ray as this to 1.
 const RAYS_FOR_A_BOX: u32 = 2;
 
-/// What a visit takes besides the tests, in tests: of a node whose boxes are asked of rays one by one, and of a leaf. (One ray at a
-/// time, a visit takes 2 tests with all.) With less, rays that have nothing in common are given up too late: `cargo bench --bench
-/// pictures` has them, shuffled.
+/// What a visit takes besides the tests, in tests: of a node whose boxes are asked of rays one by one, and of a leaf. (One ray
+/// at a time, a visit takes 2 tests with all.) With less, rays that have nothing in common are given up too late: `cargo bench
+/// --bench pictures` has them, shuffled.
 const OF_NODE: u32 = 10;
 const OF_LEAF: u32 = 5;
 
@@ -167,8 +167,13 @@ impl<V: Vector> Collection<V> for Tree<V> {
         lanes.run(Prepare::new(&mut slabs, packet, whole));
         let frustum = Frustum::new(packet, whole, MARGIN);
         let mut entries = Numbers([0.0; LANES]);
-        // What waits, which rays may enter it, and whether each of these has been asked.
-        let mut waiting = ArrayVec::<(Key, Mask, bool), MOST_WAITING>::new();
+        let enter = |packet: &mut Packet, boxes, lane, rays: Mask| {
+            let entering = lanes.run(Enter { slabs: &slabs, packet, boxes, lane, rays });
+            let pays = packet.pays(2 + Packet::tests(rays), 2 * entering.count_ones());
+            pays.then_some(entering)
+        };
+        // Where the order matters, rays are asked of a box when it is its turn: many have no more to ask then.
+        let mut waiting = ArrayVec::<(Key, Mask), MOST_WAITING>::new();
         let (mut place, mut rays) = (whole.root, packet.alive);
         loop {
             if place & LEAF != 0 {
@@ -182,52 +187,51 @@ impl<V: Vector> Collection<V> for Tree<V> {
                 } else {
                     lanes.run(EnterAny { node, frustum: &frustum, end, entries: &mut entries })
                 };
-                // Where the order matters, many rays have no more to ask when it is the farther boxes' turn.
+                let first = waiting.len();
                 let boxes = entered.count_ones() * Packet::tests(rays);
-                let are_asked = Q::IN_ANY_ORDER && count < RAYS_FOR_A_BOX * boxes;
-                let masks = if are_asked {
+                if Q::IN_ANY_ORDER && count < RAYS_FOR_A_BOX * boxes {
                     if !packet.pays(OF_NODE + count, 2 * count) {
                         return;
                     }
-                    lanes.run(EnterAlone { node, slabs: &slabs, packet, rays })
-                } else {
-                    [rays; LANES]
-                };
-                let first = waiting.len();
+                    let masks = lanes.run(EnterAlone { node, slabs: &slabs, packet, rays });
+                    for (&rays, lane) in masks.iter().zip(0..).filter(|&(&rays, _)| rays != 0) {
+                        let _ = waiting.try_push((key(0.0, place * 16 + lane), rays));
+                    }
+                    entered = 0;
+                }
                 while entered != 0 {
                     let lane = entered.trailing_zeros();
                     entered &= entered - 1;
-                    let rays = masks[lane as usize % LANES];
-                    if rays != 0 {
-                        let entry =
-                            if Q::IN_ANY_ORDER { 0.0 } else { entries.0[lane as usize % LANES] };
-                        // A box, by its node and its lane: there are fewer than 32 bits can tell apart.
-                        let _ = waiting.try_push((key(entry, place * 16 + lane), rays, are_asked));
-                    }
+                    // A box, by its node and its lane: there are fewer than 32 bits can tell apart.
+                    let key = key(entries.0[lane as usize % LANES], place * 16 + lane);
+                    let rays = if Q::IN_ANY_ORDER {
+                        let Some(rays) = enter(packet, node, lane as usize, rays) else { return };
+                        rays
+                    } else {
+                        rays
+                    };
+                    let _ = waiting.try_push((key, rays));
                 }
                 if !Q::IN_ANY_ORDER {
                     // The nearest is next.
                     let pushed = waiting.get_mut(first..).unwrap_or_default();
-                    pushed.sort_unstable_by_key(|&(key, ..)| Reverse(key));
+                    pushed.sort_unstable_by_key(|&(key, _)| Reverse(key));
                 }
                 if node.region().is_some() {
                     packet.leave_alone(rays);
                 }
             }
             loop {
-                let Some((key, waiting_rays, are_asked)) = waiting.pop() else { return };
+                let Some((key, waiting_rays)) = waiting.pop() else { return };
                 rays = waiting_rays & packet.alive;
                 if entry(key) > packet.farthest || rays == 0 {
                     continue;
                 }
                 let (node, lane) = (child(key) as usize / LANES, child(key) as usize % LANES);
                 let Some(boxes) = self.nodes.get(node) else { continue };
-                if !are_asked {
-                    let tests = Packet::tests(rays);
-                    rays = lanes.run(Enter { slabs: &slabs, packet, boxes, lane, rays });
-                    if !packet.pays(2 + tests, 2 * rays.count_ones()) {
-                        return;
-                    }
+                if !Q::IN_ANY_ORDER {
+                    let Some(entering) = enter(packet, boxes, lane, rays) else { return };
+                    rays = entering;
                 }
                 if rays != 0 {
                     place = boxes.child(child(key) % 16);
@@ -276,13 +280,17 @@ impl<V: Vector> Tree<V> {
     ) -> bool {
         let Some(leaf) = self.leaves.get(place as usize) else { return true };
         let (alone, end) = (rays.count_ones(), packet.farthest);
-        let near =
-            if alone <= FEW { ALL } else { lanes.run(InLeaf { leaf, cone: &packet.cone, end }) };
+        let near = if Q::IN_ANY_ORDER && alone <= FEW {
+            ALL
+        } else {
+            lanes.run(InLeaf { leaf, cone: &packet.cone, end })
+        };
         if near == 0 {
             return true;
         }
         let together = near.count_ones() * Packet::tests(rays);
-        if !packet.pays(OF_LEAF + alone.min(together), 2 * alone) {
+        let of_leaf = if Q::IN_ANY_ORDER { OF_LEAF } else { alone };
+        if !packet.pays(of_leaf + alone.min(together), 2 * alone) {
             return false;
         }
         let of_spheres = if alone < together {
