@@ -8,7 +8,7 @@ use super::lanes::Lanes;
 use super::local::{narrow, to_f32};
 use super::middle::Middle;
 use super::packet::bounds::{Meet, Met};
-use super::packet::{Around, Mask, Packet, Question, RAYS, first};
+use super::packet::{Around, Mask, NEIGHBORS, Packet, Question, RAYS, first};
 use super::scan::Bits;
 use super::{SphereBvh, Spheres};
 use crate::order::{is_nearer, next_above};
@@ -58,7 +58,6 @@ impl<V: Vector, C: Collection<V>> Nearest<'_, V, C> {
 }
 
 impl<V: Vector, C: Collection<V>> Question<V> for Nearest<'_, V, C> {
-    const NEIGHBORS: [f32; 2] = [0.125, 0.1];
     const IN_ANY_ORDER: bool = false;
 
     fn ask(
@@ -91,8 +90,6 @@ struct Occluded<'a, V: Vector> {
 }
 
 impl<V: Vector> Question<V> for Occluded<'_, V> {
-    // Farther apart than where the order matters, but not so far that rays in any order are taken.
-    const NEIGHBORS: [f32; 2] = [0.3, 0.25];
     const IN_ANY_ORDER: bool = true;
 
     fn ask(
@@ -134,8 +131,8 @@ fn meet<V: Vector>(
 
 /// A collection that packets can be asked of.
 pub(super) trait Collection<V: Vector> {
-    /// Where rays are asked together.
-    fn around(&self) -> Around;
+    /// Where rays are asked together. It makes a difference whether spheres may be asked in any order.
+    fn around(&self, in_any_order: bool) -> Around;
 
     /// Asks all spheres that a ray of the packet may be the first to meet. Rays that share too little of their way are left
     /// alone.
@@ -174,8 +171,8 @@ pub(super) fn nearest_each<V: Vector, C: Collection<V>>(
         question.finish(packet);
     };
     let alone = |ray: &Ray<V>| collection.nearest_alone(lanes, ray, range.clone());
-    let neighbors = <Nearest<'_, V, C> as Question<V>>::NEIGHBORS;
-    each(collection, lanes, (rays, range, neighbors), found, together, alone);
+    let around = collection.around(false);
+    each(lanes, around, (rays, range), found, together, alone);
 }
 
 /// Finds whether each ray hits anything.
@@ -191,28 +188,27 @@ pub(super) fn occludes_each<V: Vector>(
         collection.ask(lanes, packet, &mut Occluded { rays, range, answers });
     };
     let alone = |ray: &Ray<V>| collection.occludes_alone(lanes, ray, range.clone());
-    let neighbors = <Occluded<'_, V> as Question<V>>::NEIGHBORS;
-    each(collection, lanes, (rays, range, neighbors), occluded, together, alone);
+    let around = collection.around(true);
+    each(lanes, around, (rays, range), occluded, together, alone);
 }
 
 /// Answers for each ray: those that a packet takes together, and the others alone.
 fn each<V: Vector, T>(
-    collection: &impl Collection<V>,
     lanes: Lanes,
-    (rays, range, neighbors): (&[Ray<V>], &Range<V::Scalar>, [f32; 2]),
+    around: Around,
+    (rays, range): (&[Ray<V>], &Range<V::Scalar>),
     answers: &mut [T],
     together: impl Fn(&mut Packet, &[Ray<V>], &mut [T]),
     alone: impl Fn(&Ray<V>) -> T,
 ) {
     let mut packet = Packet::EMPTY;
-    let around = collection.around();
     for (rays, answers) in rays.chunks(RAYS).zip(answers.chunks_mut(RAYS)) {
         // The last may be fewer of either.
         let count = rays.len().min(answers.len());
         let (rays, answers) = (&rays[..count], &mut answers[..count]);
         let mut asked = 0;
         if is_single::<V>() {
-            asked = packet.load(lanes, rays, range, around, neighbors);
+            asked = packet.load(lanes, rays, range, around);
         }
         if asked != 0 {
             together(&mut packet, rays, answers);
@@ -227,9 +223,11 @@ fn each<V: Vector, T>(
 }
 
 impl<V: Vector> Collection<V> for Spheres<V> {
-    fn around(&self) -> Around {
+    fn around(&self, _: bool) -> Around {
         let Middle { center, extent, near_squared } = self.middle;
-        Around { center: narrow(center), radius_squared: near_squared, extent }
+        let [apart, wide] = NEIGHBORS;
+        let neighbors = [apart * extent, wide];
+        Around { center: narrow(center), radius_squared: near_squared, neighbors }
     }
 
     fn ask<Q: Question<V>>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) {

@@ -35,6 +35,10 @@ const RAYS_IN_A_TEST: u32 = 2;
 /// By how many tests of 16 rays a packet may fall behind before it is given up: it takes as long as some of its rays, one by one.
 const PATIENCE: i32 = 256;
 
+/// How far apart the origins of neighbors may be, in extents of the collection, and their directions, in their lengths. Rays
+/// farther apart share little more than the first nodes.
+pub(super) const NEIGHBORS: [f32; 2] = [0.125, 0.1];
+
 /// How many pairs of rays tell whether they are neighbors.
 const PAIRS: usize = 4;
 
@@ -117,12 +121,11 @@ impl Packet {
         rays: &[Ray<V>],
         range: &Range<V::Scalar>,
         around: Around,
-        neighbors: [f32; 2],
     ) -> Mask {
         let [start, end] = [range.start, range.end].map(to_f32);
         (self.alone, self.alive) = (0, 0);
         self.first = if start > 0.0 { start } else { LEAST_POSITIVE };
-        if !around.are_neighbors(rays, neighbors) {
+        if !around.are_neighbors(rays) {
             return 0;
         }
         let is_empty = start.is_nan() || end.is_nan() || self.first >= end;
@@ -296,10 +299,6 @@ impl Packet {
 
 /// What is asked of all rays.
 pub(super) trait Question<V: Vector> {
-    /// How far apart the origins of neighbors may be, in extents of the collection, and their directions, in their lengths. Rays
-    /// farther apart share little more than the first nodes.
-    const NEIGHBORS: [f32; 2];
-
     /// Whether spheres may be asked in any order: the nearest need not be the first.
     const IN_ANY_ORDER: bool;
 
@@ -362,14 +361,14 @@ pub(super) struct Around {
     /// Where rays do not come from afar.
     pub(super) center: Vec3,
     pub(super) radius_squared: f32,
-    /// What spheres reach from there.
-    pub(super) extent: f32,
+    /// How far apart the origins of neighbors may be, and their directions, in their lengths.
+    pub(super) neighbors: [f32; 2],
 }
 
 impl Around {
     /// Whether most of a few pairs of rays are neighbors: those that have nothing in common are told before they cost anything.
-    fn are_neighbors<V: Vector>(&self, rays: &[Ray<V>], neighbors: [f32; 2]) -> bool {
-        let [apart, wide] = [neighbors[0] * self.extent, neighbors[1]].map(|limit| limit * limit);
+    fn are_neighbors<V: Vector>(&self, rays: &[Ray<V>]) -> bool {
+        let [apart, wide] = self.neighbors.map(|limit| limit * limit);
         let step = rays.len() / PAIRS;
         let others = rays.iter().skip(step / 2).step_by(step.max(1));
         let strangers = rays.iter().step_by(step.max(1)).zip(others).filter(|(one, other)| {

@@ -21,12 +21,15 @@ use crate::spheres::each::Collection;
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
 use crate::spheres::local::narrow;
 use crate::spheres::packet::cone::Cone;
-use crate::spheres::packet::{Around, Mask, Packet, Question, RAYS};
+use crate::spheres::packet::{Around, Mask, NEIGHBORS, Packet, Question, RAYS};
 use crate::spheres::scan::Bits;
 use crate::{Hit, Ray, Scalar, Sphere, Vector};
 
 /// A bit for each box of a node or each sphere of a leaf.
 const ALL: u32 = 0xFFFF;
+
+/// [`NEIGHBORS`] for occlusion: farther apart, but not so far that rays in any order are taken.
+const NEIGHBORS_IN_ANY_ORDER: [f32; 2] = [0.3, 0.25];
 
 /// So few rays are asked one by one at once, not together before that.
 const FEW: u32 = 4;
@@ -147,14 +150,12 @@ impl Vectorized for EnterAlone<'_> {
 }
 
 impl<V: Vector> Collection<V> for Tree<V> {
-    fn around(&self) -> Around {
-        self.regions.first().map_or_else(
-            || self.apart.around(),
-            |whole| {
-                let (center, extent) = (narrow(whole.center), whole.extent);
-                Around { center, radius_squared: extent * FAR * (extent * FAR), extent }
-            },
-        )
+    fn around(&self, in_any_order: bool) -> Around {
+        let Some(whole) = self.regions.first() else { return self.apart.around(in_any_order) };
+        let (center, extent) = (narrow(whole.center), whole.extent);
+        let [apart, wide] = if in_any_order { NEIGHBORS_IN_ANY_ORDER } else { NEIGHBORS };
+        let neighbors = [apart * extent, wide];
+        Around { center, radius_squared: extent * FAR * (extent * FAR), neighbors }
     }
 
     fn ask<Q: Question<V>>(&self, lanes: Lanes, packet: &mut Packet, question: &mut Q) {

@@ -176,19 +176,20 @@ impl Vectorized for Distances<'_> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, instructions: I) -> [f32; 2] {
-        let Self { sixteens, axis } = self;
+        let Self { sixteens, axis: [origin, direction] } = self;
         let larger = |a: f32, b: f32| if a > b { a } else { b };
-        let mut distances = [[0.0; LANES]; 2];
+        let [mut of_origin, mut of_direction] = [[0.0; LANES]; 2];
         for sixteen in sixteens {
-            let both = [&sixteen.origin, &sixteen.direction];
-            for (([x, y, z], middle), distances) in both.iter().zip(axis).zip(&mut distances) {
-                for lane in 0..LANES {
-                    let [x, y, z] = [x[lane] - middle.x, y[lane] - middle.y, z[lane] - middle.z];
-                    distances[lane] = larger(distances[lane], square(instructions, x, y, z));
-                }
+            let ([p, q, r], [x, y, z]) = (&sixteen.origin, &sixteen.direction);
+            for lane in 0..LANES {
+                let [p, q, r] = [p[lane] - origin.x, q[lane] - origin.y, r[lane] - origin.z];
+                let [x, y, z] =
+                    [x[lane] - direction.x, y[lane] - direction.y, z[lane] - direction.z];
+                of_origin[lane] = larger(of_origin[lane], square(instructions, p, q, r));
+                of_direction[lane] = larger(of_direction[lane], square(instructions, x, y, z));
             }
         }
-        distances.map(|distances| super::reduce(distances, larger))
+        [of_origin, of_direction].map(|numbers| super::reduce(numbers, larger))
     }
 }
 

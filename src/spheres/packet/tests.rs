@@ -11,7 +11,8 @@ use crate::Hittable;
 use crate::order::next_above;
 
 /// Takes any rays.
-const ANY: Around = Around { center: Vec3::ZERO, radius_squared: f32::INFINITY, extent: 1.0 };
+const ANY: Around =
+    Around { center: Vec3::ZERO, radius_squared: f32::INFINITY, neighbors: [f32::INFINITY; 2] };
 
 /// From afar, where the distance makes the error.
 const FAR: f64 = 1e4;
@@ -65,7 +66,7 @@ fn wrong_bounds(margins: Margins, far: f64, lanes: Lanes, cases: u32) -> u32 {
         let behind = hit.map_or(0.0, |hit| next_above::<Vec3>(hit.t));
         for range in [0.0..f32::INFINITY, behind..f32::INFINITY] {
             let expected = sphere.intersect(&ray, range.clone()).map(|hit| hit.t);
-            if packet.load(lanes, &[ray; FEWEST], &range, ANY, [f32::INFINITY; 2]) == 0 {
+            if packet.load(lanes, &[ray; FEWEST], &range, ANY) == 0 {
                 continue;
             }
             let meet = Meet { packet: &mut packet, sphere: &sphere, place: 7, rays: 1 };

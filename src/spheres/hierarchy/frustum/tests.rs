@@ -13,7 +13,8 @@ use crate::spheres::packet::Around;
 use crate::{Hittable, Ray, Sphere};
 
 /// Takes any rays.
-const ANY: Around = Around { center: Vec3::ZERO, radius_squared: f32::INFINITY, extent: 1.0 };
+const ANY: Around =
+    Around { center: Vec3::ZERO, radius_squared: f32::INFINITY, neighbors: [f32::INFINITY; 2] };
 
 const LANE: usize = 5;
 
@@ -90,11 +91,7 @@ fn dropped([of_frustum, of_rays]: [f32; 2], lanes: Lanes, cases: u32) -> [u32; 3
         let region = Region { center, extent: low.abs().max(high.abs()).max_element(), root: 0 };
         for end in [f32::INFINITY, next_above::<Vec3>(hit.t)] {
             hits += 1;
-            assert_ne!(
-                packet.load(lanes, &[ray; 4], &(0.0..end), ANY, [f32::INFINITY; 2]),
-                0,
-                "{ray:?}"
-            );
+            assert_ne!(packet.load(lanes, &[ray; 4], &(0.0..end), ANY), 0, "{ray:?}");
             let frustum = Frustum::new(&packet, &region, of_frustum);
             let (entered, entry) = lanes.run(EnterAny(&frustum, &boxes, end));
             assert_eq!(entered & !(1 << LANE), 0, "an empty box was entered");
