@@ -4,6 +4,7 @@ mod sign;
 
 use core::fmt::{self, Debug, Formatter};
 
+use crate::arithmetic::rounding::RoundDown;
 use crate::sealed::{Internal, Operation};
 use crate::{Ray, Scalar, Vector};
 
@@ -194,6 +195,6 @@ impl<V> Operation<V> for LastPlaces {
     where
         V: Internal,
     {
-        [V::UNIT_ULP, V::LEAST_POSITIVE]
+        [V::Scalar::UNIT_ULP, V::Scalar::LEAST_POSITIVE]
     }
 }

@@ -4,7 +4,7 @@ use core::hint::black_box;
 use core::iter;
 use core::ops::Range;
 
-use crate::root::order::{is_nearer, next_above};
+use crate::order::{is_nearer, next_above};
 use crate::sealed::Crate;
 use crate::target::HAS_VECTORS;
 use crate::{Hit, Ray, Sphere, Vector};

@@ -87,7 +87,7 @@
 //!
 //! On a Cortex-M4F, whose hardware has no `f64`, an easy hit takes 35 times the instructions of the textbook's formula, one from
 //! 1,000 radii away 50 times, and a miss through [`nearest`] 2.5 times. Beyond the formula, `intersect` of a [`Sphere`] takes
-//! 17 kB of code there in `f32` and 18 kB in both precisions, optimized for size, and in WebAssembly 12 kB in `f32` and 55 kB
+//! 17 kB of code there in `f32` and 18 kB in both precisions, optimized for size, and in WebAssembly 12 kB in `f32` and 46 kB
 //! in both (`tests/targets/run costs`, in the repository).
 // Without `alloc` these two do not exist, and the links above lead to the documentation with all features.
 #![cfg_attr(not(feature = "alloc"), doc = "")]
@@ -127,6 +127,7 @@ mod geometric;
 mod hit;
 mod hittable;
 mod nearest;
+mod order;
 mod ray;
 mod rejection;
 mod root;

@@ -63,7 +63,7 @@ pub struct Crate(pub(crate) ());
 ///
 /// ```compile_fail
 /// fn ulp<V: eyeray::Vector>() -> f64 {
-///     V::UNIT_ULP
+///     <V::Scalar>::UNIT_ULP
 /// }
 /// ```
 ///

@@ -1,6 +1,7 @@
 //! The arithmetic that the two derivations are carried out in.
 
 pub(crate) mod comparison;
+pub(crate) mod half;
 pub(crate) mod integer;
 pub(crate) mod number;
 pub(crate) mod pair;

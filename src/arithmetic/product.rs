@@ -1,7 +1,5 @@
 //! Unsigned integers of 256 bits: products of two of 128.
 
-use core::cmp::Ordering;
-
 use super::scaled_pair::ScaledPair;
 
 #[cfg(test)]
@@ -15,8 +13,6 @@ pub(crate) struct Product {
 }
 
 impl Product {
-    pub(crate) const ZERO: Self = Self { high: 0, low: 0 };
-
     /// `a b`.
     #[inline]
     pub(crate) fn new(a: u128, b: u128) -> Self {
@@ -64,15 +60,4 @@ impl Product {
         #[expect(clippy::cast_possible_wrap, reason = "at most 127")]
         ScaledPair::from_integer(leading, unit + 128 - zeros as i32)
     }
-}
-
-/// The sign of a sum of products: of those in `terms` that are positive, less those that are negative.
-pub(crate) fn sign_of_sum<const N: usize>(terms: [(bool, Product); N]) -> Ordering {
-    let sum = |wanted: bool| {
-        terms
-            .into_iter()
-            .filter(|(negative, _)| *negative == wanted)
-            .fold(Product::ZERO, |sum, (_, term)| sum.plus(term))
-    };
-    sum(false).cmp(&sum(true))
 }

@@ -30,8 +30,16 @@ macro_rules! next_below {
     };
 }
 
-/// A type of numbers that an exact sum can be rounded down to.
+/// A type of numbers, of which each has neighbors, and that an exact sum can be rounded down to.
 pub trait RoundDown: Sized {
+    /// An ulp of 1.
+    const UNIT_ULP: f64;
+    /// The smallest number above 0.
+    const LEAST_POSITIVE: f64;
+
+    /// The next number above one that is positive and finite.
+    fn next_above(self) -> Self;
+
     /// The next number below one that is neither NaN nor negative infinity.
     fn next_below(self) -> Self;
 
@@ -41,6 +49,14 @@ pub trait RoundDown: Sized {
 }
 
 impl RoundDown for f32 {
+    const UNIT_ULP: f64 = f32::EPSILON as f64;
+    const LEAST_POSITIVE: f64 = f32::from_bits(1) as f64;
+
+    #[inline(always)]
+    fn next_above(self) -> Self {
+        Self::from_bits(self.to_bits().wrapping_add(1))
+    }
+
     fn next_below(self) -> Self {
         next_below!(self)
     }
@@ -54,6 +70,14 @@ impl RoundDown for f32 {
 }
 
 impl RoundDown for f64 {
+    const UNIT_ULP: f64 = f64::EPSILON;
+    const LEAST_POSITIVE: f64 = f64::from_bits(1);
+
+    #[inline(always)]
+    fn next_above(self) -> Self {
+        Self::from_bits(self.to_bits().wrapping_add(1))
+    }
+
     fn next_below(self) -> Self {
         next_below!(self)
     }

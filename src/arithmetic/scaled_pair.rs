@@ -1,6 +1,6 @@
 //! Numbers of any exponent: a pair times a power of two.
 
-use core::ops::{Add, Div, Neg};
+use core::ops::{Div, Neg};
 
 use super::pair::{Pair, two_sum};
 use super::scaling::scale;
@@ -43,10 +43,6 @@ impl ScaledPair {
         if integer < 0 { -magnitude } else { magnitude }
     }
 
-    pub(crate) fn is_negative(self) -> bool {
-        self.value.hi < 0.0
-    }
-
     pub(crate) fn is_zero(self) -> bool {
         self.value.hi == 0.0
     }
@@ -66,15 +62,6 @@ impl ScaledPair {
     pub(crate) fn to_f64(self) -> f64 {
         scale(self.value.hi, self.exponent)
     }
-
-    /// The square root of a positive number or zero.
-    pub(crate) fn sqrt(self) -> Self {
-        if self.is_zero() {
-            return Self::ZERO;
-        }
-        let odd = self.exponent.rem_euclid(2);
-        Self { value: self.scaled(odd - self.exponent).sqrt(), exponent: (self.exponent - odd) / 2 }
-    }
 }
 
 impl Neg for ScaledPair {
@@ -82,22 +69,6 @@ impl Neg for ScaledPair {
 
     fn neg(self) -> Self {
         Self { value: -self.value, ..self }
-    }
-}
-
-impl Add for ScaledPair {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        if self.is_zero() {
-            return other;
-        }
-        if other.is_zero() {
-            return self;
-        }
-        let unit = self.exponent.max(other.exponent);
-        let value = self.scaled(-unit) + other.scaled(-unit);
-        Self { value, exponent: unit }
     }
 }
 

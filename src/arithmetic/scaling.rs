@@ -33,17 +33,6 @@ pub(crate) fn scale(x: f64, e: i32) -> f64 {
     if (-1022..=1023).contains(&e) { x * power_of_two(e) } else { scale_far(x, e) }
 }
 
-/// `x` 2ᵉ, which must be below 2⁵³. It is exact from 2⁻⁹⁶⁹ on; if `x` 2ᵉ is smaller, the result is any number of the same sign up
-/// to 2⁻⁹⁶⁹.
-///
-/// The integer of `x` is multiplied, because to multiply a subnormal number takes a hundred times as long.
-#[inline]
-#[expect(clippy::cast_precision_loss, reason = "at most 53 bits")]
-pub(crate) fn scale_subnormal(x: f64, e: i32) -> f64 {
-    let (integer, unit) = integer_and_exponent(x);
-    (integer as f64).copysign(x) * power_of_two((unit + e).max(-1022))
-}
-
 /// The same where 2ᵉ is no normal number.
 #[cold]
 #[inline(never)]

@@ -79,8 +79,6 @@ pub(crate) enum Question {
     Nearest(Range<f64>),
     /// The far crossing, if its t is finite and above 0.
     Exit,
-    /// One root.
-    Root(Side),
     /// Both roots.
     Both,
 }
@@ -90,7 +88,7 @@ pub(crate) enum Question {
 pub(crate) enum Answer {
     /// To [`Question::Exit`], too.
     Nearest(Found),
-    /// Ascending; zero where only the other root was asked.
+    /// Ascending.
     Roots([f64; 2]),
 }
 
@@ -111,12 +109,7 @@ impl Question {
     pub(crate) fn ask(&self, crossings: &mut impl Crossings) -> Verdict<Answer> {
         let mut roots = [0.0; 2];
         for (side, t) in [Side::Near, Side::Far].into_iter().zip(&mut roots) {
-            let is_asked = match self {
-                Self::Root(wanted) => *wanted == side,
-                Self::Exit => side == Side::Far,
-                Self::Nearest(_) | Self::Both => true,
-            };
-            if !is_asked {
+            if matches!(self, Self::Exit) && side == Side::Near {
                 continue;
             }
             let Some((rounded, root)) = crossings.root(side) else { return Verdict::Doubt };
@@ -124,7 +117,7 @@ impl Question {
             let is_in_range = match self {
                 Self::Nearest(range) => range.contains(&rounded),
                 Self::Exit => true,
-                Self::Root(_) | Self::Both => continue,
+                Self::Both => continue,
             };
             if rounded > 0.0 && rounded < f64::INFINITY && is_in_range {
                 let found = crossings.hit(side, rounded, root);
@@ -133,7 +126,7 @@ impl Question {
         }
         match self {
             Self::Nearest(_) | Self::Exit => Verdict::Miss,
-            Self::Root(_) | Self::Both => Verdict::Hit(Answer::Roots(roots)),
+            Self::Both => Verdict::Hit(Answer::Roots(roots)),
         }
     }
 }

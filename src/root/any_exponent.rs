@@ -14,7 +14,8 @@ use std::env;
 
 use glam::{DVec3, Vec3};
 
-use super::tests::{exact_root, line};
+use super::answer::Found;
+use super::tests::{careful_steps, exact_root, line};
 use super::*;
 use crate::algebraic::Quadratic;
 use crate::arithmetic::rounding::RoundDown;
@@ -162,8 +163,7 @@ fn listed(answer: Option<Answer>) -> Option<[f64; 7]> {
 /// What is wrong with the answers to a question of the steps before the last.
 fn wrong_step(line: &Line, format: Format, question: &Question) -> Option<&'static str> {
     let expected = listed(last_step(line, format, question));
-    let in_pairs = moved_origin::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
-    let in_integers = integers::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
+    let [in_pairs, in_integers] = careful_steps(line, format, question);
     let is_wrong = |verdict| match verdict {
         Verdict::Miss => expected.is_some(),
         Verdict::Hit(answer) => listed(Some(answer)) != expected,
@@ -226,10 +226,8 @@ where
             return Some(format!("{what}: {found:?}, not {roots:?}"));
         }
     }
-    for question in [Question::Both, Question::Root(Side::Near), Question::Root(Side::Far)] {
-        if let Some(step) = wrong_step(&line, format, &question) {
-            return Some(format!("{question:?} by {step}"));
-        }
+    if let Some(step) = wrong_step(&line, format, &Question::Both) {
+        return Some(format!("both roots by {step}"));
     }
     let mut ranges = vec![0.0..f64::INFINITY];
     if let Some([near, far]) = roots {
@@ -300,4 +298,33 @@ fn every_step_answers_as_the_last_over_all_exponents() {
     println!("{hits} of {} lines hit", 4 * count);
     assert!(hits > count, "{hits} hits");
     assert_eq!(failed, 0, "of {}", 4 * count);
+}
+
+#[test]
+fn what_is_lost_beside_a_large_coordinate_is_not_taken_for_zero() {
+    // Midway between two floats, but for what a coordinate far below the others adds.
+    for (center, origin, direction, radius) in [
+        (
+            [-4.878_797_525_546_4e-175, 7.008_359_852_462_586_5e183, -4.249_103_942_534_137e183],
+            [-5e-324, 7.008_359_852_462_586_5e183, 0.0],
+            [-0.0, -0.0, -1.192_092_895_507_812_5e-7],
+            7.076_179_546_540_39e167,
+        ),
+        (
+            [1.774_508_604_237_321_5e131, 0.0, -1.657_809_2e-316],
+            [0.0, 0.0, -5e-324],
+            [2.242_077_542_919_707_3e-44, 0.0, 0.0],
+            2.955_150_464_729_586e115,
+        ),
+        (
+            [-2.754_508_019_813_277_6e-281, 0.0, 9.134_385_233_318_143e46],
+            [-7.531_857_866_676_93e-283, 0.0, 0.0],
+            [0.0, 0.0, 2.350_988_701_644_575e-38],
+            3.042_361_440_547_750_6e31,
+        ),
+    ] {
+        let numbers = [&center[..], &origin, &direction, &[radius]].concat();
+        let numbers = numbers.try_into().expect("ten numbers");
+        assert_eq!(wrong::<DVec3>(numbers, Format::F64, true), None, "{numbers:?}");
+    }
 }

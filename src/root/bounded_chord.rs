@@ -28,19 +28,19 @@ const DISCRIMINANT_ERROR: f64 = 8.0 * U;
 const MOMENT_ERROR_SQUARED: f64 = 10.0 * U * U;
 
 /// The chord by the closest approach, with the error of its discriminant.
-pub(super) struct Bounded {
-    pub(super) chord: Chord<f64>,
+pub(crate) struct Bounded {
+    pub(crate) chord: Chord<f64>,
     /// Of the discriminant.
-    pub(super) error: f64,
+    pub(crate) error: f64,
     /// |d|.
-    pub(super) length: f64,
+    pub(crate) length: f64,
     /// |o|.
-    pub(super) distance: f64,
+    pub(crate) distance: f64,
 }
 
 impl Bounded {
     #[inline(always)]
-    pub(super) fn new(o: Triple<f64>, d: Triple<f64>, radius_squared: f64) -> Self {
+    pub(crate) fn new(o: Triple<f64>, d: Triple<f64>, radius_squared: f64) -> Self {
         let chord = ClosestApproach::chord(o, d, radius_squared);
         let moment = o.cross(d);
         let moment_squared = moment.dot(moment);
@@ -53,7 +53,7 @@ impl Bounded {
 
     /// P.
     #[inline(always)]
-    pub(super) fn reach(&self) -> f64 {
+    pub(crate) fn reach(&self) -> f64 {
         self.length * self.distance
     }
 }

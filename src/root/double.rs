@@ -4,128 +4,33 @@ use core::ops::Range;
 
 use glam::DVec3;
 
-use super::answer::{Found, Side};
-use super::chord::{Chord, Derivation};
+use super::answer::{Found, Question};
+use super::ask_carefully;
+use super::chord::Derivation;
 use super::format::Format;
-use super::halves::{self, Correction};
+use super::halves;
 use super::line::{Line, Setting};
+use super::near_surface::from_the_surface;
 use super::plain::{self, Both, Nearest};
 use super::precision::Precision;
-use super::{both_carefully, exit_carefully, narrow, near_surface, nearest_carefully, power};
-use crate::algebraic::Quadratic;
-use crate::arithmetic::pair::LEAST_PAIR;
-use crate::float::sqrt;
 use crate::{Hit, Ray, Sphere};
 
 #[cfg(test)]
 pub(super) mod tests;
-
-/// Whether a square, a or the larger of o·o and r², is between 2⁻⁴⁸⁰ and 2⁴⁸⁰: then no product of two of them overflows, and
-/// what underflows on the way is far below the error bounds.
-#[inline(always)]
-pub(super) fn is_safe(square: f64) -> bool {
-    const LEAST: u64 = (1023 - 480) << 52;
-    const SPAN: u64 = 960 << 52;
-    // Above the span are all negative numbers, infinities and NaN.
-    square.to_bits().wrapping_sub(LEAST) < SPAN
-}
-
-impl Setting {
-    /// The chord, unless its terms might overflow or underflow.
-    #[inline(always)]
-    fn safe_chord<D: Derivation>(&self) -> Option<Chord<f64>> {
-        let chord = self.chord::<D>();
-        (is_safe(chord.a) && is_safe(self.larger(&chord))).then_some(chord)
-    }
-
-    /// m.
-    #[inline(always)]
-    fn larger(&self, chord: &Chord<f64>) -> f64 {
-        if chord.power > 0.0 { chord.distance_squared } else { self.radius_squared }
-    }
-
-    #[inline(always)]
-    fn correction(&self, chord: &Chord<f64>) -> Correction {
-        Correction::new(self.line, self.o, chord, self.radius_squared)
-    }
-}
 
 /// The nearest hit where the plain step is in doubt: from close to the surface by a finer power.
 #[cold]
 #[inline(never)]
 fn nearest_again(line: &Line, range: Range<f64>) -> Option<Found> {
     if !Format::F64.has_few_steps() {
-        if let Some(nearest) = from_the_surface(*line, &range) {
+        if let Some(nearest) = from_the_surface(*line, Format::F64, &range) {
             return nearest;
         }
     }
-    nearest_carefully(line, Format::F64, range)
-}
-
-/// 2⁻⁵⁰⁰, the square of which is not safe.
-const LEAST_LENGTH: f64 = f64::from_bits((1023 - 500) << 52);
-
-/// The nearest hit of a line that starts close to the surface, or that there is none; `None` where that is not certain.
-#[inline(always)]
-#[expect(clippy::option_option, reason = "a certain miss is an answer, too")]
-fn from_the_surface(line: Line, range: &Range<f64>) -> Option<Option<Found>> {
-    // No product of subnormal numbers is of use, and each takes long.
-    if line.radius < LEAST_LENGTH || line.direction.abs().max_element() < LEAST_LENGTH {
-        return None;
-    }
-    let setting = Setting::of(line);
-    let radius_squared = setting.radius_squared;
-    let chord = setting.safe_chord::<Quadratic>()?;
-    let half_chord = sqrt(chord.discriminant);
-    let larger = chord.distance_squared.max(radius_squared);
-    if !near_surface::is_close(&chord, half_chord, larger) {
-        return None;
-    }
-    let o = line.o();
-    let power = power::accurate_power(o, line.radius);
-    // As certain as rounding needs, too.
-    if power.1 > f64::EPSILON / 1024.0 * power.0.hi.abs() {
-        return None;
-    }
-    let (is_outside, is_behind) = (power.0.hi > 0.0, chord.h < 0.0);
-    if is_behind && power.0.hi >= 0.0 {
-        // Both roots are behind, or the far one is 0.
-        return Some(None);
-    }
-    if is_outside || is_behind {
-        let root = near_surface::small_root(o, line.direction.into(), &chord, half_chord, power);
-        if root.0.hi.abs() < LEAST_PAIR {
-            return None;
-        }
-        let side = if is_outside { Side::Near } else { Side::Far };
-        let t = Format::F64
-            .round(root.0, root.1, |midpoint| narrow::compare_root(&{ line }, side, midpoint))?;
-        if t > 0.0 && range.contains(&t) {
-            return near_surface::hit(line, o, side, root, t).map(Some);
-        }
-        if is_behind || t >= range.start {
-            return Some(None);
-        }
-    }
-    // The far root, where nothing cancels.
-    let t = plain::far_root(&chord, half_chord);
-    let size = radius_squared * larger;
-    let corrected = setting.correction(&chord).correct_surely(t, half_chord, size)?;
-    if !range.contains(&corrected.t.hi) {
-        return Some(None);
-    }
-    corrected.hit(line, sqrt(chord.a), sqrt(larger), half_chord).map(Some)
+    ask_carefully(line, Format::F64, &Question::Nearest(range))?.nearest()
 }
 
 impl Precision for DVec3 {
-    const UNIT_ULP: f64 = f64::EPSILON;
-    const LEAST_POSITIVE: f64 = f64::from_bits(1);
-
-    #[inline(always)]
-    fn next_above(t: f64) -> f64 {
-        f64::from_bits(t.to_bits().wrapping_add(1))
-    }
-
     #[inline(always)]
     fn intersect<D: Derivation>(
         sphere: &Sphere<Self>,
@@ -167,7 +72,7 @@ impl Precision for DVec3 {
 
     fn exit_at_same_t(sphere: &Sphere<Self>, ray: &Ray<Self>) -> Option<Hit<Self>> {
         let line = Line::new(sphere, ray);
-        let found = exit_carefully(&line, Format::F64)?;
+        let found = ask_carefully(&line, Format::F64, &Question::Exit)?.nearest()?;
         Some(hit(line, found.t, found.point, found.normal))
     }
 
@@ -189,7 +94,7 @@ impl Precision for DVec3 {
                 Both::Doubt => {}
             }
         }
-        both_carefully(&Line::new(sphere, ray), Format::F64)
+        ask_carefully(&Line::new(sphere, ray), Format::F64, &Question::Both)?.roots()
     }
 }
 

@@ -1,35 +1,16 @@
-//! The format that a root is rounded to, and rounding to it for sure.
-//!
-//! Ziv, *Fast Evaluation of Elementary Mathematical Functions with Correctly Rounded Last Bit* (1991): where both ends of an
-//! interval that holds the exact value round to the same number, that is the exact value correctly rounded. Where they round
-//! to neighbors, the exact value has to be compared with the one number midway between them.
+//! The format that roots and points are rounded to, and the numbers midway between two of its numbers.
 
 use core::array;
-use core::cmp::Ordering;
 
-use crate::arithmetic::pair::{Pair, U};
-use crate::arithmetic::rounding::RoundDown;
+use crate::arithmetic::pair::U;
 use crate::arithmetic::scaling::integer_and_exponent;
 use crate::target::{HAS_F64, IS_DOWNLOADED};
-
-#[cfg(test)]
-mod tests;
 
 /// A format of floating-point numbers, all of which are `f64` too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Format {
     F32,
     F64,
-}
-
-/// How far off a point may be besides the rounding of its coordinates: by the smaller of two lengths.
-#[cfg(test)]
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PointTolerance {
-    /// A part of the distance travelled, t times the direction's length.
-    pub(crate) of_distance: f64,
-    /// A part of the radius.
-    pub(crate) of_radius: f64,
 }
 
 impl Format {
@@ -43,72 +24,6 @@ impl Format {
             Self::F32 => !HAS_F64 || IS_DOWNLOADED,
             Self::F64 => !HAS_F64,
         }
-    }
-
-    /// What the first steps keep to.
-    #[cfg(test)]
-    pub(crate) const fn point_tolerance(self) -> PointTolerance {
-        match self {
-            // 2^-30 and 2^-24.
-            Self::F32 => PointTolerance {
-                of_distance: f32::EPSILON as f64 / 128.0,
-                of_radius: f32::EPSILON as f64 / 2.0,
-            },
-            // 2^-60 and 2^-53.
-            Self::F64 => PointTolerance { of_distance: U / 128.0, of_radius: U },
-        }
-    }
-
-    /// Rounds the exact value that `t` is known to be within `relative_error` of.
-    ///
-    /// `compare` says how the exact value compares with a number midway between two neighbors, and is asked only if the answer
-    /// depends on it. `None` where it does not know, and where more than two neighbors are possible.
-    #[inline]
-    pub(crate) fn round(
-        self,
-        t: Pair,
-        relative_error: f64,
-        compare: impl FnOnce(Midpoint) -> Option<Ordering>,
-    ) -> Option<f64> {
-        // Nor where it is NaN.
-        if relative_error.is_nan() || relative_error >= 0.25 {
-            return None;
-        }
-        // The least is for what may underflow.
-        let error = t.hi.abs() * relative_error + f64::MIN_POSITIVE;
-        let [[low], [high]] = self.ends([t.hi], [t.lo], [error]);
-        // In bits, because an interval around zero has two.
-        if low.to_bits() == high.to_bits() {
-            return Some(low);
-        }
-        self.nearer([low, high], compare)
-    }
-
-    /// Which of two neighbors an exact value between them is rounded to. `None` where they are not neighbors, and where `compare`
-    /// does not know how the value compares with the number midway.
-    #[inline]
-    pub(crate) fn nearer(
-        self,
-        [low, high]: [f64; 2],
-        compare: impl FnOnce(Midpoint) -> Option<Ordering>,
-    ) -> Option<f64> {
-        let low_is_even = match self {
-            Self::F32 => {
-                #[expect(clippy::cast_possible_truncation, reason = "they are rounded already")]
-                let [low, high] = [low as f32, high as f32];
-                let are_neighbors = high.next_below() == low;
-                are_neighbors.then_some(low.to_bits() % 2 == 0)
-            }
-            Self::F64 => {
-                let are_neighbors = high.next_below() == low;
-                are_neighbors.then_some(low.to_bits() % 2 == 0)
-            }
-        }?;
-        Some(match compare(self.midpoint([low, high]))? {
-            Ordering::Less => low,
-            Ordering::Equal if low_is_even => low,
-            _ => high,
-        })
     }
 
     /// Rounds to the nearest number.
@@ -164,7 +79,7 @@ impl Format {
     }
 
     /// The number midway between two neighbors. Infinity stands for the power of two that would come next.
-    fn midpoint(self, [low, high]: [f64; 2]) -> Midpoint {
+    pub(crate) fn midpoint(self, [low, high]: [f64; 2]) -> Midpoint {
         let negative = high <= 0.0;
         // The one nearer to zero, as an integer times an ulp of the self.
         let (mantissa, exponent) = integer_and_exponent(if negative { high } else { low });

@@ -62,8 +62,10 @@ use glam::DVec3;
 use super::answer::{Found, Side};
 use super::chord::Chord;
 use super::format::Format;
-use super::line::Line;
+use super::line::{Line, Setting};
 use super::points::{self, Crossing, Near};
+use super::power::to_center;
+use crate::arithmetic::half::{Half, Halves, splitter};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{Pair, U, fast_two_sum, two_sum};
 
@@ -87,68 +89,7 @@ const OFFSET_ERROR: f64 = U / 2_097_152.0;
 
 /// How far off a corrected root may be, as a part of itself: 2⁻⁶², and half of that for all else.
 /// Proved in `tests/proofs/halves.g`.
-const ROOT_ERROR: f64 = U / 512.0 * 1.5;
-
-/// A vector as the sum of two, exactly.
-#[derive(Clone, Copy, Debug)]
-struct Halves {
-    high: DVec3,
-    low: DVec3,
-}
-
-impl Halves {
-    #[inline(always)]
-    fn new(vector: DVec3, splitter: f64) -> Self {
-        let high = (vector + splitter) - splitter;
-        Self { high, low: vector - high }
-    }
-
-    /// From the ray's origin to the center: `o` is that rounded, and what was rounded goes into the low part.
-    #[inline(always)]
-    fn to_center(line: Line, o: DVec3, splitter: f64) -> Self {
-        let Self { high, low } = Self::new(o, splitter);
-        let rounded = DVec3::from(line.o().map(|o| o.lo));
-        Self { high, low: low + rounded }
-    }
-}
-
-/// A number as the sum of two, exactly.
-#[derive(Clone, Copy)]
-struct Half {
-    high: f64,
-    low: f64,
-}
-
-impl Half {
-    #[inline(always)]
-    fn new(number: f64, splitter: f64) -> Self {
-        let high = (number + splitter) - splitter;
-        Self { high, low: number - high }
-    }
-}
-
-/// The number that, added to what has that square and subtracted again, leaves 26 bits of it: 3/2 2²⁶ times a power of two that
-/// is no less than the root of the square.
-#[inline(always)]
-fn splitter(square: f64) -> f64 {
-    // The exponent of the power of two is half of that of the square, rounded up.
-    const ROUND_UP: u64 = 1077 << 52;
-    const HALF: u64 = 1 << 51;
-    f64::from_bits((square.to_bits() + ROUND_UP) >> 53 << 52 | HALF)
-}
-
-/// o·o - r², off by at most 2⁻⁷⁶ m besides the rounding of the result, with `o` rounded and m as `larger`.
-///
-/// The sum of high parts is exact. What is rounded are o.low, 2⁻⁸⁰ of |o|, and the products and sums with low parts, of at most
-/// 2⁻²⁵ m each.
-#[inline(always)]
-pub(super) fn power(line: Line, o: DVec3, larger: f64) -> f64 {
-    let splitter = splitter(larger);
-    let Halves { high, low } = Halves::to_center(line, o, splitter);
-    let radius = Half::new(line.radius, splitter);
-    let leading = high.dot(high) - radius.high * radius.high;
-    leading + (low.dot(o + high) - radius.low * (line.radius + radius.high))
-}
+pub(super) const ROOT_ERROR: f64 = U / 512.0 * 1.5;
 
 /// A corrected root, and where the ray is there.
 #[derive(Clone, Copy, Debug)]
@@ -186,11 +127,17 @@ impl Corrected {
         self.w.high + (self.w.low + self.correction)
     }
 
-    /// The hit at a far root, if it is certain how that is rounded: with |d|, √m and half the chord s.
+    /// The hit at a far root that is rounded to `t`, if it is certain how it is rounded: with |d|, √m and half the chord s.
     ///
     /// By the error of the case, which is far less than [`ROOT_ERROR`] where the chord is long.
     #[inline(always)]
-    pub(super) fn hit(&self, line: Line, length: f64, size: f64, half_chord: f64) -> Option<Found> {
+    pub(super) fn hit(
+        &self,
+        line: Line,
+        format: Format,
+        t: f64,
+        [length, size, half_chord]: [f64; 3],
+    ) -> Option<Found> {
         let per_half_chord = half_chord.recip();
         let tau = self.tau.abs();
         let bend = length * length * tau * per_half_chord;
@@ -202,8 +149,8 @@ impl Corrected {
         let offset = Triple::from(self.w.high).zip(low, |hi, lo| Pair { hi, lo });
         let [point, offset] =
             [self.point_in_pairs(), offset].map(|value| Near::within(value, error));
-        let crossing = Crossing::new(Side::Far, point, offset, line.radius);
-        points::surely(line, Format::F64, self.t.hi, crossing)
+        let crossing = Crossing { side: Side::Far, point, offset };
+        points::surely(line, format, t, crossing)
     }
 }
 
@@ -218,16 +165,24 @@ pub(super) struct Correction {
     radius_splitter: f64,
 }
 
+impl Setting {
+    /// What the correction of either root needs.
+    #[inline(always)]
+    pub(super) fn correction(&self, chord: &Chord<f64>) -> Correction {
+        Correction::new(self.line, self.o, chord, self.radius_squared)
+    }
+}
+
 impl Correction {
     /// With o rounded.
     #[inline(always)]
-    pub(super) fn new(line: Line, o: DVec3, chord: &Chord<f64>, radius_squared: f64) -> Self {
+    fn new(line: Line, o: DVec3, chord: &Chord<f64>, radius_squared: f64) -> Self {
         let Chord { a, distance_squared, .. } = *chord;
         let larger =
             if distance_squared > radius_squared { distance_squared } else { radius_squared };
         let radius_splitter = splitter(radius_squared);
         Self {
-            o: Halves::to_center(line, o, splitter(larger)),
+            o: to_center(line, o, splitter(larger)),
             d: Halves::new(line.direction, splitter(a)),
             direction: line.direction,
             origin: line.origin,

@@ -9,11 +9,8 @@ use super::format::Format;
 use super::line::Line;
 use super::moved_origin;
 use super::narrow::Narrow;
-use super::points::{self, normalized};
-use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::V;
-use crate::arithmetic::scaled_pair::ScaledPair;
-use crate::arithmetic::scaling::{exponent, scale};
+use super::{points, ties};
+use crate::arithmetic::pair::{Pair, V};
 
 #[cfg(test)]
 mod tests;
@@ -31,98 +28,60 @@ mod tests;
 /// That is 2,579 v at most.
 const ROOT_ERROR: f64 = 4096.0 * V;
 
-/// Where a pair loses nothing.
-const MIDDLE: i32 = 900;
-
 /// The chord, and what it belongs to.
 pub(super) struct InIntegers<'a> {
     line: &'a Line,
     format: Format,
     exact: Narrow,
-    a: ScaledPair,
-    h: ScaledPair,
-    half_chord: ScaledPair,
+    a: Pair,
+    h: Pair,
+    /// √discriminant.
+    half_chord: Pair,
 }
 
-/// Takes the chord of a line. It is in doubt where the coordinates span too many places, and where one is no number.
+/// Takes the chord of a line that is near 1, as [`Scaled`](super::scaled_line::Scaled) brings it there. It is in doubt where the
+/// coordinates span too many places.
 pub(super) fn chord(line: &Line, format: Format) -> Verdict<InIntegers<'_>> {
-    if !line.is_valid() {
-        return Verdict::Doubt;
-    }
     let Some(exact) = Narrow::new(line) else { return Verdict::Doubt };
     let discriminant = exact.discriminant();
-    if discriminant.is_negative() {
+    if discriminant.hi < 0.0 {
         return Verdict::Miss;
     }
-    let half_chord = discriminant.sqrt();
+    let half_chord = if discriminant.hi == 0.0 { discriminant } else { discriminant.sqrt() };
     let (a, h) = (exact.a(), exact.h());
     Verdict::Hit(InIntegers { line, format, exact, a, h, half_chord })
 }
 
 impl InIntegers<'_> {
-    fn estimate(&self, side: Side) -> ScaledPair {
+    fn estimate(&self, side: Side) -> Pair {
         let Self { a, h, half_chord, .. } = *self;
-        if half_chord.is_zero() {
-            return h / a;
-        }
         // Next to a tangent, nothing cancels.
-        if half_chord.exponent() < h.exponent() - 2 {
+        if half_chord.hi <= 0.25 * h.hi.abs() {
             let along = if side == Side::Near { -half_chord } else { half_chord };
             return (h + along) / a;
         }
         // The root that does not cancel, and the other one from the product of the roots, power / a.
-        let sum = if h.is_negative() { h + -half_chord } else { h + half_chord };
-        if (side == Side::Near) == h.is_negative() { sum / a } else { self.exact.power() / sum }
-    }
-}
-
-impl InIntegers<'_> {
-    /// The hit from the foot of the closest approach, where neither the distance nor the length of the chord counts.
-    #[cold]
-    #[inline(never)]
-    fn hit_from_closest_approach(&self, side: Side, t: f64, root: ScaledPair) -> Option<Found> {
-        let Line { direction, radius, .. } = *self.line;
-        let (radius, length_exponent) = normalized(radius);
-        let direction_exponent = exponent(direction.abs().max_element());
-        // In units of the radius and of the direction's length, which bound half the chord and the moment.
-        let unit = -(length_exponent + direction_exponent);
-        let [x, y, z] = self.exact.moment().map(|coordinate| coordinate.scaled(unit));
-        let half_chord = self.half_chord.scaled(unit);
-        let d = Triple::from(direction).map(|d| scale(d, -direction_exponent));
-        let offset = points::from_closest_approach(
-            Triple { x, y, z },
-            d,
-            if side == Side::Near { -half_chord } else { half_chord },
-            self.a.scaled(-2 * direction_exponent),
-        );
-        let root_exponent = root.exponent();
-        let root = (root.scaled(-root_exponent), root_exponent, ROOT_ERROR);
-        let crossing = points::Crossing::from_root(self.line, side, root, offset, radius);
-        points::surely(*self.line, self.format, t, crossing)
+        let is_behind = h.hi < 0.0;
+        let sum = if is_behind { h + -half_chord } else { h + half_chord };
+        if (side == Side::Near) == is_behind { sum / a } else { self.exact.power() / sum }
     }
 }
 
 impl Crossings for InIntegers<'_> {
-    type Root = ScaledPair;
+    type Root = Pair;
 
-    fn root(&mut self, side: Side) -> Option<(f64, ScaledPair)> {
+    fn root(&mut self, side: Side) -> Option<(f64, Pair)> {
         let exact = self.estimate(side);
-        let compare = |number| self.exact.compare_root(self.line, side, number);
-        let t = if exact.is_zero() {
-            0.0
-        } else if exact.exponent().abs() < MIDDLE {
-            self.format.round(exact.scaled(0), ROOT_ERROR, compare)?
-        } else {
-            return None;
-        };
+        let compare = |number| ties::compare_root(self.line, side, number, None);
+        let is_zero = exact.hi == 0.0;
+        let t = if is_zero { 0.0 } else { self.format.round(exact, ROOT_ERROR, compare)? };
         Some((t, exact))
     }
 
-    fn hit(&mut self, side: Side, t: f64, root: ScaledPair) -> Option<Found> {
+    fn hit(&mut self, side: Side, t: f64, root: Pair) -> Option<Found> {
         if self.line.radius == 0.0 {
             return points::at_center(self.line, self.format, t, self.a);
         }
         moved_origin::hit_at(self.line, self.format, side, t, (root, ROOT_ERROR))
-            .or_else(|| self.hit_from_closest_approach(side, t, root))
     }
 }

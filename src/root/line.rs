@@ -8,7 +8,7 @@ use crate::arithmetic::pair::{Pair, two_difference};
 use crate::{Ray, Sphere, Vector};
 
 /// A line and a sphere as the caller gave them.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Line {
     pub(crate) origin: DVec3,
     pub(crate) direction: DVec3,
@@ -44,6 +44,16 @@ impl Line {
     }
 }
 
+/// Whether a square, a or the larger of o·o and r², is between 2⁻⁴⁸⁰ and 2⁴⁸⁰: then no product of two of them overflows, and
+/// what underflows on the way is far below the error bounds.
+#[inline(always)]
+pub(crate) fn is_safe(square: f64) -> bool {
+    const LEAST: u64 = (1023 - 480) << 52;
+    const SPAN: u64 = 960 << 52;
+    // Above the span are all negative numbers, infinities and NaN.
+    square.to_bits().wrapping_sub(LEAST) < SPAN
+}
+
 /// A line and a sphere as the plain steps see them.
 pub(crate) struct Setting {
     pub(crate) line: Line,
@@ -69,5 +79,18 @@ impl Setting {
     #[inline(always)]
     pub(crate) fn chord<D: Derivation>(&self) -> Chord<f64> {
         D::chord(Triple::from(self.o), Triple::from(self.line.direction), self.radius_squared)
+    }
+
+    /// The chord, unless its terms might overflow or underflow.
+    #[inline(always)]
+    pub(crate) fn safe_chord<D: Derivation>(&self) -> Option<Chord<f64>> {
+        let chord = self.chord::<D>();
+        (is_safe(chord.a) && is_safe(self.larger(&chord))).then_some(chord)
+    }
+
+    /// m.
+    #[inline(always)]
+    pub(crate) fn larger(&self, chord: &Chord<f64>) -> f64 {
+        if chord.power > 0.0 { chord.distance_squared } else { self.radius_squared }
     }
 }

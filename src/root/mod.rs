@@ -2,17 +2,18 @@
 //!
 //! A [`chord`] is what both derivations find of a [`line`](mod@line) and a sphere: how far away the line passes, and where. The
 //! way from there to the root reads downwards in this table; [`single`] and [`double`] are where it begins, in the user's code,
-//! and from [`moved_origin`] on it is one function for both precisions. [`power`] has o·o - r² where nearly all of it cancels,
-//! [`format`](mod@format) rounds, [`points`] finds points and normals, and [`answer`] chooses the root that a ray hits.
+//! and from [`moved_origin`] on, for a line brought near 1 ([`scaled_line`]), it is one function for both precisions. [`power`] has
+//! o·o - r² where nearly all of it cancels, [`ziv`] rounds to a [`format`](mod@format), [`ties`] compares with the number midway
+//! between two floats, [`points`] finds points and normals, and [`answer`] chooses the root that a ray hits.
 //!
 //! | step | arithmetic | error known by | decides | ns, of a family |
 //! |:--|:--|:--|:--|:--|
 //! | [`plain`] | `f64` | one bound for all cases | hit, miss and root in `f32`; hit and miss in `f64` | 7, "inside" in `f32` |
 //! | [`halves`] | `f64`, exact in the leading 26 bits | one bound for all cases | the root in `f64` | 22, "inside" in `f64` |
-//! | again | `f64` with a finer power, or by the closest approach with a bound of the case ([`bounded_chord`]) | the same | `f32` close to the surface and from afar | 13, "on the surface" in `f32` |
-//! | [`near_surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface | 54, "on the surface" in `f64` |
+//! | [`again`] | `f64` with a finer power, or by the closest approach with a bound of the case ([`bounded_chord`]) | the same | `f32` close to the surface and from afar | 13, "on the surface" in `f32` |
+//! | [`near_surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface, `f32` exactly on it | 54, "on the surface" in `f64` |
 //! | [`moved_origin`] | offsets and powers in pairs of `f64`, the rest in `f64` | a bound of the case | the limb, and from afar in `f64` | 86, "at the limb from afar" in `f64` |
-//! | [`integers`] | integers of 64 bits, products of 256 ([`narrow`]) | exact | tangents, ties | 173 and 171, "exact tangent" |
+//! | [`integers`] | integers of 64 bits, products of 256 ([`narrow`]) | exact | tangents | 173 and 171, "exact tangent" |
 //! | [`surds`] | integers of many digits | exact | coordinates that span more places, points next to a midpoint or to zero | 1,452, "tie of a tiny sphere" in `f64` |
 //!
 //! How many in a hundred each decides (`cargo test --release --lib how_often -- --nocapture` has every family; "again" counts
@@ -39,69 +40,45 @@
 //! A step that is not certain hands over to the next, and so does one that is certain of the root but not of the point. No step
 //! assumes what another has found, so each can be tested by itself.
 //!
-//! From [`near_surface`] on, and where a line starts exactly on the surface, the points and normals are correctly rounded, too
-//! ([`points`], with the help of [`ties`]). So all these steps answer alike, bit for bit, and those between the first and the
+//! From [`near_surface`] on, the points and normals are correctly rounded, too. So all these steps answer alike, bit for bit, and those between the first and the
 //! last can be left out where there is no room for their code ([`Format::has_few_steps`]).
 
+mod again;
 mod answer;
-mod bounded_chord;
+pub(crate) mod bounded_chord;
 pub(crate) mod chord;
 mod double;
 mod format;
 mod halves;
 mod integers;
-mod line;
-mod moved_origin;
+pub(crate) mod line;
+pub(crate) mod moved_origin;
 mod narrow;
 mod near_surface;
-pub(crate) mod order;
 mod plain;
+mod plain_single;
 mod points;
 mod power;
 pub(crate) mod precision;
 mod scaled_line;
 mod single;
-mod surds;
+pub(crate) mod surds;
 mod ties;
-
-use core::ops::Range;
+pub(crate) mod unit;
+mod ziv;
 
 pub(crate) use answer::Side;
-use answer::{Answer, Found, Question, Verdict};
+use answer::{Answer, Question, Verdict};
 use format::Format;
 use line::Line;
+use scaled_line::Scaled;
 
 #[cfg(test)]
 mod any_exponent;
 #[cfg(test)]
 mod tests;
 
-/// Finds the nearest hit, where the plain steps leave a doubt.
-#[inline(always)]
-fn nearest_carefully(line: &Line, format: Format, range: Range<f64>) -> Option<Found> {
-    ask_carefully(line, format, &Question::Nearest(range))?.nearest()
-}
-
-/// Finds where the ray leaves, if t is finite and above 0 there. No plain step is asked: the two crossings may be very close.
-#[inline(always)]
-fn exit_carefully(line: &Line, format: Format) -> Option<Found> {
-    ask_carefully(line, format, &Question::Exit)?.nearest()
-}
-
-/// Finds both roots, ascending, where the plain steps leave a doubt.
-#[inline(always)]
-fn both_carefully(line: &Line, format: Format) -> Option<[f64; 2]> {
-    ask_carefully(line, format, &Question::Both)?.roots()
-}
-
-/// Finds one root, where the plain steps are certain only that there is one.
-#[inline(always)]
-fn root_carefully(line: &Line, format: Format, side: Side) -> Option<f64> {
-    let [near, far] = ask_carefully(line, format, &Question::Root(side))?.roots()?;
-    Some(if side == Side::Near { near } else { far })
-}
-
-/// Asks the steps that are compiled once, or of few steps the last.
+/// Asks the steps that are compiled once, or of few steps the last, where the plain steps leave a doubt.
 #[inline(always)]
 fn ask_carefully(line: &Line, format: Format, question: &Question) -> Option<Answer> {
     if format.has_few_steps() {
@@ -115,18 +92,28 @@ fn ask_carefully(line: &Line, format: Format, question: &Question) -> Option<Ans
 #[cold]
 #[inline(never)]
 fn carefully(line: &Line, format: Format, question: &Question) -> Option<Answer> {
-    match moved_origin::chord(line, format).and_then(|mut chord| question.ask(&mut chord)) {
+    let Some(scaled) = Scaled::new(line) else { return in_any_integers(line, format, question) };
+    let verdict = moved_origin::chord(&scaled.line, format)
+        .and_then(|chord| question.ask(&mut scaled.unscaled(chord)));
+    match verdict {
         Verdict::Miss => None,
         Verdict::Hit(answer) => Some(answer),
-        Verdict::Doubt => in_integers(line, format, question),
+        Verdict::Doubt => in_integers(line, &scaled, format, question),
     }
 }
 
 /// Takes the last step but one.
 #[cold]
 #[inline(never)]
-fn in_integers(line: &Line, format: Format, question: &Question) -> Option<Answer> {
-    match integers::chord(line, format).and_then(|mut chord| question.ask(&mut chord)) {
+fn in_integers(
+    line: &Line,
+    scaled: &Scaled,
+    format: Format,
+    question: &Question,
+) -> Option<Answer> {
+    let verdict = integers::chord(&scaled.line, format)
+        .and_then(|chord| question.ask(&mut scaled.unscaled(chord)));
+    match verdict {
         Verdict::Miss => None,
         Verdict::Hit(answer) => Some(answer),
         Verdict::Doubt => in_any_integers(line, format, question),

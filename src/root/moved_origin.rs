@@ -55,15 +55,13 @@ use super::bounded_chord::Bounded;
 use super::chord::Chord;
 use super::format::{Format, Midpoint};
 use super::line::Line;
-use super::narrow;
 use super::points::{self, Crossing, Near};
-use super::power::{self, power_in_pairs};
-use super::scaled_line::Scaled;
+use super::power::power_in_pairs;
+use super::ties;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
     LEAST_PAIR, Pair, U, V, compensated_dot, two_difference, two_product, two_sum,
 };
-use crate::arithmetic::scaled_pair::ScaledPair;
 use crate::arithmetic::scaling::scale;
 use crate::float::sqrt;
 
@@ -101,9 +99,10 @@ const MOST_BEND: f64 = 1.0 / 64.0;
 pub(super) struct InPairs<'a> {
     line: &'a Line,
     format: Format,
-    scaled: Scaled,
     /// t of that point.
     start: f64,
+    /// From there to the center.
+    o: Triple<Pair>,
     a: f64,
     /// |d|.
     length: f64,
@@ -116,7 +115,7 @@ pub(super) struct InPairs<'a> {
 
 /// w = t d - o. Where it is next to nothing beside o, the low part need not be small beside the high one.
 #[inline(always)]
-pub(super) fn offset(o: Triple<Pair>, d: Triple<f64>, t: f64) -> Triple<Pair> {
+pub(crate) fn offset(o: Triple<Pair>, d: Triple<f64>, t: f64) -> Triple<Pair> {
     o.zip(d, |o, d| {
         let step = two_product(t, d);
         let high = two_difference(step.hi, o.hi);
@@ -127,16 +126,10 @@ pub(super) fn offset(o: Triple<Pair>, d: Triple<f64>, t: f64) -> Triple<Pair> {
     })
 }
 
-/// Takes the chord of a line.
-///
-/// A NaN, an infinity, a zero direction and a negative radius end in doubt.
+/// Takes the chord of a line that is near 1, as [`Scaled`](super::scaled_line::Scaled) brings it there.
 #[inline(always)]
 pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
-    let Some(scaled) = Scaled::new(line) else { return Verdict::Doubt };
-    let Scaled { o, d, radius, .. } = scaled;
-    if radius < 0.0 {
-        return Verdict::Doubt;
-    }
+    let (o, d, radius) = (line.o(), Triple::from(line.direction), line.radius);
     let radius_squared = radius * radius;
     let bounded = Bounded::new(o.map(|o| o.hi), d, radius_squared);
     let Chord { a, h, distance_squared, discriminant, .. } = bounded.chord;
@@ -146,13 +139,13 @@ pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
     }
     let reach_squared = a * distance_squared;
     let size = distance.max(radius);
-    let near = InPairs { line, format, scaled, start: 0.0, a, length, h, half_chord: 0.0, size };
+    let near = InPairs { line, format, start: 0.0, o, a, length, h, half_chord: 0.0, size };
     if discriminant > SURE * error && discriminant > SURE_H * reach_squared {
         return Verdict::Hit(InPairs { half_chord: sqrt(discriminant), ..near });
     }
 
     let start = h / a;
-    let w = offset(near.scaled.o, near.scaled.d, start).map(|w| two_sum(w.hi, w.lo));
+    let w = offset(o, d, start).map(|w| two_sum(w.hi, w.lo));
     let (power, larger) = power_in_pairs(w, radius);
     let along = compensated_dot(d, w.map(|w| w.hi));
     let along = along.hi + (along.lo + d.dot(w.map(|w| w.lo)));
@@ -164,8 +157,7 @@ pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
     }
     if discriminant > 4.0 * error {
         let half_chord = sqrt(discriminant);
-        let scaled = Scaled { o: w.map(|w| -w), ..near.scaled };
-        return Verdict::Hit(InPairs { scaled, start, h: -along, half_chord, ..near });
+        return Verdict::Hit(InPairs { start, o: w.map(|w| -w), h: -along, half_chord, ..near });
     }
     Verdict::Doubt
 }
@@ -173,7 +165,6 @@ pub(super) fn chord(line: &Line, format: Format) -> Verdict<InPairs<'_>> {
 /// A root, and where the line is there.
 pub(super) struct Corrected {
     side: Side,
-    /// In scaled units.
     t: Pair,
     error: f64,
     /// Before the correction.
@@ -182,14 +173,14 @@ pub(super) struct Corrected {
 }
 
 impl InPairs<'_> {
-    /// The root on that side, in scaled units.
+    /// The root on that side.
     #[inline(always)]
     fn corrected(&self, side: Side) -> Option<Corrected> {
-        let Self { start, a, length, h, half_chord, size, .. } = *self;
-        let Scaled { d, radius, .. } = self.scaled;
+        let Self { line, start, o, a, length, h, half_chord, size, .. } = *self;
+        let (d, radius) = (Triple::from(line.direction), line.radius);
         let along = if side == Side::Near { h - half_chord } else { h + half_chord };
         let way = along / a;
-        let w = offset(self.scaled.o, self.scaled.d, way);
+        let w = offset(o, d, way);
         let (power, _) = power_in_pairs(w, radius);
         let inverse_slope = (2.0 * w.map(|w| w.hi).dot(d)).recip();
         let q = power.hi * inverse_slope;
@@ -211,60 +202,25 @@ impl InPairs<'_> {
     /// The error of where the line is at a root.
     #[inline(always)]
     fn offset_error(&self, root: &Corrected) -> f64 {
-        let of_offset = OFFSET_ERROR * self.scaled.radius + OFFSET_REACH_ERROR * self.size;
+        let of_offset = OFFSET_ERROR * self.line.radius + OFFSET_REACH_ERROR * self.size;
         root.error * self.length + of_offset
     }
 
-    /// How the root on that side compares with a number midway between its neighbors, in scaled units.
+    /// How the root on that side compares with a number midway between its neighbors.
     ///
     /// A number within 3 times the error is nearer to this root than to the other: they are 2 s / a apart. By the moved origin,
     /// s² is above 192 v a r² + 1280 u v a r √m, so that what the power errs by makes less than s / 8 a, and the correction, at
     /// most s / 64 a, brings half of that at most; of a plain discriminant, both are less; and 2 v |t| is next to nothing beside
-    /// s / a, which is above 2⁻⁷² |t|.
+    /// s / a, which is above 2⁻⁷² |t|. So before the near root, and behind the far one, it is known where the closest approach is.
     #[inline(always)]
     fn compare(&self, side: Side, root: &Corrected, number: Midpoint) -> Option<Ordering> {
         let above = root.above(number);
         if above.abs() > 2.0 * (root.error + PAIR_ERROR * root.t.hi.abs()) {
             return above.partial_cmp(&0.0);
         }
-        let exponent = number.exponent + self.scaled.exponent();
-        let number = Midpoint { exponent, ..number };
-        let certain = if self.scaled.is_scaled() { None } else { quadratic_at(self.line, number) };
-        match (certain, side) {
-            (None, _) => narrow::compare_root(self.line, side, number),
-            // Nearer to this root than to the other, outside is before the near one and behind the far one.
-            (Some(quadratic), Side::Near) => Some(quadratic),
-            (Some(quadratic), Side::Far) => Some(quadratic.reverse()),
-        }
+        let ahead = if side == Side::Near { Ordering::Greater } else { Ordering::Less };
+        ties::compare_root(self.line, side, number, Some(ahead))
     }
-}
-
-/// The sign of the quadratic at a number midway between two floats, if that is certain.
-#[inline(always)]
-fn quadratic_at(line: &Line, number: Midpoint) -> Option<Ordering> {
-    // The number is odd: an even one, of 53 bits, and 1.
-    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
-    let even = scale((number.integer - 1) as f64, number.exponent);
-    let one = scale(1.0, number.exponent);
-    let exact = line.o().zip(line.direction.into(), |o, d| {
-        let step = two_product(even, d);
-        let last = one * d;
-        let high = two_difference(step.hi, o.hi);
-        let low = two_difference(step.lo, o.lo);
-        let lower = two_sum(low.hi, last);
-        let lowest = two_sum(lower.hi, high.lo);
-        let is_whole = d == 0.0 || last.abs() > LEAST_PAIR;
-        let dropped = low.lo.abs() + lower.lo.abs() + lowest.lo.abs();
-        (two_sum(high.hi, lowest.hi), if is_whole { dropped } else { f64::INFINITY })
-    });
-    let dropped = exact.x.1 + exact.y.1 + exact.z.1;
-    let w = Triple { x: exact.x.0, y: exact.y.0, z: exact.z.0 };
-    let (power, error) = power::closest_power(w, line.radius);
-    // 0 only where all is exact: what is dropped counts, and its products may underflow.
-    let size = w.x.hi.abs() + w.y.hi.abs() + w.z.hi.abs();
-    let of_dropped = 3.0 * (size + dropped) * dropped + f64::MIN_POSITIVE;
-    let error = if dropped == 0.0 { error } else { error + of_dropped };
-    if power.hi.abs() > error || error == 0.0 { power.hi.partial_cmp(&0.0) } else { None }
 }
 
 impl Crossings for InPairs<'_> {
@@ -276,12 +232,12 @@ impl Crossings for InPairs<'_> {
         let relative_error = corrected.error / corrected.t.hi.abs() + PAIR_ERROR;
         let compare = |number| self.compare(side, &corrected, number);
         let t = self.format.round(corrected.t, relative_error, compare)?;
-        Some((self.scaled.unscaled_root(t)?, corrected))
+        Some((t, corrected))
     }
 
     #[inline(always)]
     fn hit(&mut self, _: Side, t: f64, root: Corrected) -> Option<Found> {
-        root.hit(self.line, self.format, &self.scaled, t, self.offset_error(&root))
+        root.hit(self.line, self.format, t, self.offset_error(&root))
     }
 }
 
@@ -298,37 +254,24 @@ impl Corrected {
 
     /// From the center to where the line is there.
     #[inline(always)]
-    fn offset(&self, Scaled { d, .. }: &Scaled) -> Triple<Pair> {
-        self.w.zip(*d, |w, d| Pair { hi: w.hi, lo: w.lo + d * self.correction })
+    fn offset(&self, line: &Line) -> Triple<Pair> {
+        let d = Triple::from(line.direction);
+        self.w.zip(d, |w, d| Pair { hi: w.hi, lo: w.lo + d * self.correction })
     }
 
     /// The hit: p + t d is c + w, and w is known within an error.
     #[inline(always)]
-    fn hit(
-        &self,
-        line: &Line,
-        format: Format,
-        scaled: &Scaled,
-        t: f64,
-        error: f64,
-    ) -> Option<Found> {
-        let Scaled { radius, length_exponent: unit, .. } = *scaled;
-        let offset = self.offset(scaled);
-        let center = scaled.position(line.center);
-        let sum = center.zip(offset, |center, offset| {
+    fn hit(&self, line: &Line, format: Format, t: f64, error: f64) -> Option<Found> {
+        let (offset, center, radius) = (self.offset(line), line.center, line.radius);
+        let sum = Triple::from(center).zip(offset, |center, offset| {
             let sum = two_sum(center, offset.hi);
             Pair { hi: sum.hi, lo: sum.lo + offset.lo }
         });
         let size = center.x.abs() + center.y.abs() + center.z.abs() + 2.0 * radius;
-        let crossing = Crossing {
-            side: self.side,
-            point: Near::within(sum, error + SUM_ERROR * size),
-            units: Triple { x: unit, y: unit, z: unit },
-            offset: Near::within(offset, error + SUM_ERROR * radius),
-            radius,
-        };
-        points::surely(*line, format, t, crossing)
-            .or_else(|| self.hit_from_the_origin(line, format, scaled, t, error))
+        let point = Near::within(sum, error + SUM_ERROR * size);
+        let offset = Near::within(offset, error + SUM_ERROR * radius);
+        points::surely(*line, format, t, Crossing { side: self.side, point, offset })
+            .or_else(|| self.hit_from_the_origin(line, format, t, offset))
     }
 
     /// The same where the point is p + t d, each coordinate by itself.
@@ -338,19 +281,16 @@ impl Corrected {
         &self,
         line: &Line,
         format: Format,
-        scaled: &Scaled,
         t: f64,
-        error: f64,
+        offset: Near,
     ) -> Option<Found> {
-        // A smaller root has lost digits in these units.
+        // A smaller root has lost digits.
         if self.t.hi.abs() < LEAST_PAIR {
             return None;
         }
         let relative_error = self.error / self.t.hi.abs() + PAIR_ERROR;
-        let root = (self.t, scaled.exponent(), relative_error);
-        let offset = Near::within(self.offset(scaled), error + SUM_ERROR * scaled.radius);
-        let crossing = Crossing::from_root(line, self.side, root, offset, scaled.radius);
-        points::surely(*line, format, t, crossing)
+        let point = points::on_the_line(line, self.t, relative_error);
+        points::surely(*line, format, t, Crossing { side: self.side, point, offset })
     }
 }
 
@@ -363,18 +303,15 @@ pub(super) fn hit_at(
     format: Format,
     side: Side,
     t: f64,
-    (root, relative_error): (ScaledPair, f64),
+    (root, relative_error): (Pair, f64),
 ) -> Option<Found> {
     /// Of the way, |o| and r: 2⁻⁹⁰.
     const ERROR: f64 = 65536.0 * V;
-    let scaled = Scaled::new(line)?;
-    let Scaled { o, d, .. } = scaled;
+    let (o, d) = (line.o(), Triple::from(line.direction));
+    let w = offset(o, d, root.hi);
     let o = o.map(|o| o.hi);
-    let length = sqrt(d.dot(d));
-    let root = root.scaled(-scaled.exponent());
-    let w = offset(scaled.o, scaled.d, root.hi);
-    let reach = sqrt(o.dot(o)) + scaled.radius + root.hi.abs() * length;
+    let reach = sqrt(o.dot(o)) + line.radius + root.hi.abs() * sqrt(d.dot(d));
     let error = relative_error * root.hi.abs();
     let root = Corrected { side, t: root, error, w, correction: root.lo };
-    root.hit(line, format, &scaled, t, ERROR * reach)
+    root.hit(line, format, t, ERROR * reach)
 }

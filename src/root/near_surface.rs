@@ -1,4 +1,4 @@
-//! From close to the surface, in `f64`: the small root from a power in three floats.
+//! From close to the surface: the small root from a power in three floats.
 //!
 //! There nearly all of the power o·o - r² cancels, and nothing else does: the discriminant is nearly h². The small root solves
 //! t (2 h - a t) = power, and is taken from that where a |power| < h² / 16, so that s, half the chord, is more than 0.96 |h|, and
@@ -13,17 +13,23 @@
 //! the rest            a few v
 //! ```
 
+use core::ops::Range;
+
 use glam::DVec3;
 
 use super::answer::{Found, Side};
 use super::chord::Chord;
 use super::format::Format;
-use super::line::Line;
+use super::line::{Line, Setting};
 use super::points::{self, Crossing, Near};
+use super::{halves, plain, power, ties};
+use crate::algebraic::Quadratic;
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
-    Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum,
+    LEAST_PAIR, Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum,
 };
+
+use crate::float::sqrt;
 
 #[cfg(test)]
 mod tests;
@@ -36,7 +42,7 @@ const ROOT_ERROR: f64 = U / 131_072.0;
 
 /// Whether a line starts close enough to the surface.
 #[inline(always)]
-pub(super) fn is_close(chord: &Chord<f64>, half_chord: f64, larger: f64) -> bool {
+fn is_close(chord: &Chord<f64>, half_chord: f64, larger: f64) -> bool {
     let Chord { a, h, power, .. } = *chord;
     let a_larger = a * larger;
     // With a thousandth of the square to spare for what the plain power errs by.
@@ -45,7 +51,7 @@ pub(super) fn is_close(chord: &Chord<f64>, half_chord: f64, larger: f64) -> bool
 
 /// The small root, from a power whose sign is certain, and its relative error.
 #[inline(always)]
-pub(super) fn small_root(
+fn small_root(
     o: Triple<Pair>,
     d: Triple<f64>,
     chord: &Chord<f64>,
@@ -73,8 +79,9 @@ pub(super) fn small_root(
 /// A product of the root and a coordinate of the direction errs by 4 v besides; of the low parts of a sum two additions are
 /// rounded, and that of the error. No coordinate of o is above 1.1 r, and the way is a seventeenth of r.
 #[inline(always)]
-pub(super) fn hit(
+fn hit(
     line: Line,
+    format: Format,
     o: Triple<Pair>,
     side: Side,
     (root, relative_error): (Pair, f64),
@@ -94,6 +101,67 @@ pub(super) fn hit(
     let offset = o.zip(step, |o, step| sum(-o, step));
     let point = Near::within(point, of_root + SUM_ERROR * (size(line.origin) + line.radius));
     let offset = Near::within(offset, of_root + SUM_ERROR * (2.0 * line.radius));
-    let crossing = Crossing::new(side, point, offset, line.radius);
-    points::surely(line, Format::F64, t, crossing)
+    let crossing = Crossing { side, point, offset };
+    points::surely(line, format, t, crossing)
+}
+
+/// 2⁻⁵⁰⁰, the square of which is not safe.
+const LEAST_LENGTH: f64 = f64::from_bits((1023 - 500) << 52);
+
+/// The nearest hit of a line that starts close to the surface, or that there is none; `None` where that is not certain.
+#[inline(always)]
+#[expect(clippy::option_option, reason = "a certain miss is an answer, too")]
+pub(super) fn from_the_surface(
+    line: Line,
+    format: Format,
+    range: &Range<f64>,
+) -> Option<Option<Found>> {
+    // No product of subnormal numbers is of use, and each takes long.
+    if line.radius < LEAST_LENGTH || line.direction.abs().max_element() < LEAST_LENGTH {
+        return None;
+    }
+    let setting = Setting::of(line);
+    let radius_squared = setting.radius_squared;
+    let chord = setting.safe_chord::<Quadratic>()?;
+    let half_chord = sqrt(chord.discriminant);
+    let larger = chord.distance_squared.max(radius_squared);
+    if !is_close(&chord, half_chord, larger) {
+        return None;
+    }
+    let o = line.o();
+    let power = power::accurate_power(o, line.radius);
+    // As certain as rounding needs, too.
+    if power.1 > f64::EPSILON / 1024.0 * power.0.hi.abs() {
+        return None;
+    }
+    let (is_outside, is_behind) = (power.0.hi > 0.0, chord.h < 0.0);
+    let is_accepted = |t: f64| t > 0.0 && range.contains(&t);
+    if is_behind && power.0.hi >= 0.0 {
+        // Both roots are behind, or the far one is 0.
+        return Some(None);
+    }
+    if is_outside || is_behind {
+        let root = small_root(o, line.direction.into(), &chord, half_chord, power);
+        if root.0.hi.abs() < LEAST_PAIR {
+            return None;
+        }
+        let side = if is_outside { Side::Near } else { Side::Far };
+        let compare = |midpoint| ties::compare_root(&{ line }, side, midpoint, None);
+        let t = format.round(root.0, root.1, compare)?;
+        if is_accepted(t) {
+            return hit(line, format, o, side, root, t).map(Some);
+        }
+        if is_behind || t > 0.0 && t >= range.start {
+            return Some(None);
+        }
+    }
+    // The far root, where nothing cancels.
+    let t = plain::far_root(&chord, half_chord);
+    let size = radius_squared * larger;
+    let corrected = setting.correction(&chord).correct_surely(t, half_chord, size)?;
+    let t = format.round(corrected.t, halves::ROOT_ERROR, |_| None)?;
+    if !is_accepted(t) {
+        return Some(None);
+    }
+    corrected.hit(line, format, t, [sqrt(chord.a), sqrt(larger), half_chord]).map(Some)
 }

@@ -7,7 +7,7 @@
 //!
 //! Both ends of an interval that holds a coordinate are rounded, as those of a root are. Where they are neighbors, the point's
 //! coordinate is compared with the number midway ([`ties`]). Otherwise the point is taken from the origin instead of the center
-//! ([`Crossing::from_root`]), and then the next step has to look.
+//! ([`on_the_line`]), and then the next step has to look.
 
 use core::ops::Range;
 
@@ -18,9 +18,8 @@ use super::format::Format;
 use super::line::Line;
 use super::ties;
 use crate::arithmetic::number::Triple;
-use crate::arithmetic::pair::{Pair, V, two_difference, two_sum};
-use crate::arithmetic::scaled_pair::ScaledPair;
-use crate::arithmetic::scaling::{self, exponent, integer_and_exponent, scale};
+use crate::arithmetic::pair::{LEAST_PAIR, Pair, V, two_difference, two_sum};
+use crate::arithmetic::scaling::{integer_and_exponent, scale};
 
 #[cfg(test)]
 mod tests;
@@ -41,8 +40,7 @@ pub(super) fn normalized(x: f64) -> (f64, i32) {
     (scale(x, -exponent), exponent)
 }
 
-/// A coordinate of the normal, from the point's offset from the center, correctly rounded, and the radius, both in units of the
-/// radius' power of two.
+/// A coordinate of the normal, from the point's offset from the center, correctly rounded, and the radius, both in the same units.
 pub(super) fn normal(format: Format, offset: f64, radius: f64) -> f64 {
     let normal = format.nearest(offset / radius);
     if normal.abs() < least(format) { 0.0 } else { normal }
@@ -66,86 +64,46 @@ impl Near {
     }
 }
 
-/// p + t d, with t = `root` 2^`exponent` known within a part of itself: each coordinate in units of its own power of two, and
-/// known within a part of its terms.
-fn on_the_line(line: &Line, root: Pair, exponent: i32, relative_error: f64) -> (Near, Triple<i32>) {
+/// p + t d, with t known within a part of itself.
+pub(super) fn on_the_line(line: &Line, root: Pair, relative_error: f64) -> Near {
     /// Of the product and the sum.
     const ERROR: f64 = 10.0 * V;
-    /// Where nothing overflows, and what underflows is next to nothing.
-    const MIDDLE: i32 = 700;
-    let coordinate = |p: f64, d: f64| {
-        let ((p, p_exponent), (d, d_exponent)) = (normalized(p), normalized(d));
+    let terms = Triple::from(line.origin).zip(line.direction.into(), |p, d| {
         let step = root.times(d);
-        let step_exponent = exponent + d_exponent;
-        let unit = p_exponent.max(step_exponent + scaling::exponent(step.hi));
-        // Most are in the middle of the range as they are.
-        let unit = if unit.abs() < MIDDLE { 0 } else { unit };
-        let p = scale(p, p_exponent - unit);
-        let [hi, lo] = [step.hi, step.lo].map(|x| scale(x, step_exponent - unit));
-        let sum = two_sum(p, hi);
+        let sum = two_sum(p, step.hi);
         // And what may underflow.
-        let error = relative_error * hi.abs() + ERROR * (p.abs() + hi.abs()) + f64::MIN_POSITIVE;
-        (Pair { hi: sum.hi, lo: sum.lo + lo }, error, unit)
-    };
-    let [x, y, z] = [0, 1, 2].map(|axis| coordinate(line.origin[axis], line.direction[axis]));
-    let value = Triple { x: x.0, y: y.0, z: z.0 };
-    let error = Triple { x: x.1, y: y.1, z: z.1 };
-    (Near { value, error }, Triple { x: x.2, y: y.2, z: z.2 })
+        let error = relative_error * step.hi.abs() + ERROR * (p.abs() + step.hi.abs()) + LEAST_PAIR;
+        (Pair { hi: sum.hi, lo: sum.lo + step.lo }, error)
+    });
+    let Triple { x, y, z } = terms;
+    Near { value: Triple { x: x.0, y: y.0, z: z.0 }, error: Triple { x: x.1, y: y.1, z: z.1 } }
 }
 
 /// Where a line crosses a sphere.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Crossing {
     pub(super) side: Side,
-    /// In units of 2^`units`.
     pub(super) point: Near,
-    pub(super) units: Triple<i32>,
-    /// From the center to there, and the radius, in units of their own.
+    /// From the center to there.
     pub(super) offset: Near,
-    pub(super) radius: f64,
-}
-
-impl Crossing {
-    /// The point in the caller's units.
-    #[inline(always)]
-    pub(super) fn new(side: Side, point: Near, offset: Near, radius: f64) -> Self {
-        Self { side, point, units: Triple { x: 0, y: 0, z: 0 }, offset, radius }
-    }
-
-    /// The point as p + t d, with t = `root` 2^`exponent` known within a part of itself.
-    pub(super) fn from_root(
-        line: &Line,
-        side: Side,
-        (root, exponent, relative_error): (Pair, i32, f64),
-        offset: Near,
-        radius: f64,
-    ) -> Self {
-        let (point, units) = on_the_line(line, root, exponent, relative_error);
-        Self { side, point, units, offset, radius }
-    }
 }
 
 /// The hit at a crossing, if its coordinates are known well enough to round them.
 #[inline(always)]
 pub(super) fn surely(line: Line, format: Format, t: f64, crossing: Crossing) -> Option<Found> {
-    /// Where all coordinates of a normal are far above the subnormal `f32`, and no scaled number overflows.
+    /// Where all coordinates of a normal are far above the subnormal `f32` before they are divided by the radius.
     const MIDDLE: Range<f64> = 1.0 / 1_099_511_627_776.0..1_099_511_627_776.0; // 2^-40 to 2^40
-    let Crossing { side, point, units, mut offset, mut radius } = crossing;
+    let (Crossing { side, point, mut offset }, mut radius) = (crossing, line.radius);
     if !MIDDLE.contains(&radius) {
         (offset, radius) = scaled(offset, radius)?;
     }
     let Near { value: Triple { x, y, z }, error: of_point } = point;
     let Near { value: Triple { x: u, y: v, z: w }, error: of_offset } = offset;
-    let [mut low, mut high] = format.ends(
+    let [low, high] = format.ends(
         [x.hi, y.hi, z.hi, u.hi, v.hi, w.hi],
         [x.lo, y.lo, z.lo, u.lo, v.lo, w.lo],
         [of_point.x, of_point.y, of_point.z, of_offset.x, of_offset.y, of_offset.z],
     );
-    if (units.x | units.y | units.z) != 0 {
-        for (i, unit) in [units.x, units.y, units.z].into_iter().enumerate() {
-            [low[i], high[i]] = unscaled([low[i], high[i]], unit);
-        }
-    }
     let [x, y, z, u, v, w] = low;
     let normal = (DVec3::new(u, v, w) / radius).map(|coordinate| format.nearest(coordinate));
     let DVec3 { x: u, y: v, z: w } = normal.abs();
@@ -161,19 +119,6 @@ pub(super) fn surely(line: Line, format: Format, t: f64, crossing: Crossing) -> 
     // A zero has no sign.
     let point = DVec3::new(x, y, z) + DVec3::ZERO;
     Some(Found { t, point, normal })
-}
-
-/// Both ends of an interval in units of 2^`unit`.
-#[cold]
-#[inline(never)]
-fn unscaled([low, high]: [f64; 2], unit: i32) -> [f64; 2] {
-    let ends = [low, high].map(|end| scale(end, unit));
-    if ends.iter().all(|end| end.abs() >= 2.0 * f64::MIN_POSITIVE) {
-        return ends;
-    }
-    // A subnormal end is rounded twice: it is moved outwards by as much as the first time may have moved it inwards.
-    let [low, high] = [low - low.abs() * f64::EPSILON, high + high.abs() * f64::EPSILON];
-    [low, high].map(|end| scale(end, unit))
 }
 
 /// An offset and a radius in units of the radius' power of two.
@@ -223,7 +168,7 @@ fn in_doubt(
             let is_zero = low[1].abs().max(high[1].abs()) < radius * least(format) * 0.999;
             normal[axis] =
                 if is_zero { 0.0 } else { self::normal(format, certain(low[1], high[1])?, radius) };
-            let compare = |number| ties::compare(line, side, axis, number);
+            let compare = |number| ties::compare_coordinate(line, side, axis, number);
             let coordinate =
                 certain(low[0], high[0]).or_else(|| format.nearer([low[0], high[0]], compare))?;
             point[axis] = coordinate + 0.0;
@@ -237,50 +182,16 @@ fn certain(low: f64, high: f64) -> Option<f64> {
     (low == high).then_some(low)
 }
 
-/// Where a line crosses a sphere, from the center, by the lecture's closest approach: from its foot, at (o × d) × d / a, `along`
-/// d / a, which is half the chord to either side. The radius and d are near 1.
-///
-/// The moment o × d and a are known within 2⁻⁹⁶ of themselves, 1,024 v, and `along`, a root, within 516 v. A product of a pair
-/// and an `f64` rounds its low part by 3 v, and a sum of two such products by 5 v of their magnitudes. So, in r a,
-///
-/// ```text
-/// moment × d       1,024 + 3 + 5, by Cauchy and Schwarz of |moment| |d| ≤ r a     |error| ≤ 1,032 v r a
-/// along d          516 + 3, of |along| |d| ≤ r a                                  |error| ≤   519 v r a
-/// their sum        5 of |moment| |d| + |along| |d| ≤ √2 r a                       |error| ≤     8 v r a
-/// over a           1,024, and a quotient of pairs 12, of r                        |error| ≤ 1,036 v r
-/// ```
-///
-/// That makes 2,595 v r, less than 2¹³ v because r < 2. The bound taken is 2¹⁶ v.
-pub(super) fn from_closest_approach(
-    moment: Triple<Pair>,
-    d: Triple<f64>,
-    along: Pair,
-    a: Pair,
-) -> Near {
-    const ERROR: f64 = 65536.0 * V;
-    let coordinate = |mj: Pair, dk: f64, mk: Pair, dj: f64| mj.times(dk) + -mk.times(dj);
-    let foot = Triple {
-        x: coordinate(moment.y, d.z, moment.z, d.y),
-        y: coordinate(moment.z, d.x, moment.x, d.z),
-        z: coordinate(moment.x, d.y, moment.y, d.x),
-    };
-    Near::within(foot.zip(d, |foot, d| (foot + along.times(d)) / a), ERROR)
-}
-
 /// The hit of a sphere of radius 0, if it is certain how that is rounded: there is no outward normal, but one back along the ray.
 #[cold]
 #[inline(never)]
-pub(super) fn at_center(line: &Line, format: Format, t: f64, a: ScaledPair) -> Option<Found> {
+pub(super) fn at_center(line: &Line, format: Format, t: f64, a: Pair) -> Option<Found> {
     /// a is known within 2⁻⁹⁶ of itself, 1,024 v: its root within half of that and 4 v, and the quotient within 10 v more, 526 v.
     const ERROR: f64 = 4096.0 * V;
-    let direction = line.direction.to_array();
-    let longest = exponent(line.direction.abs().max_element());
-    let length = a.scaled(-2 * longest).sqrt();
-    let normal = direction.map(|d| Pair::from(scale(-d, -longest)) / length);
-    let errors = normal.map(|x| {
-        // And what may underflow.
-        if x.hi == 0.0 { 0.0 } else { ERROR * x.hi.abs() + f64::MIN_POSITIVE }
-    });
+    let length = a.sqrt();
+    let normal = line.direction.to_array().map(|d| Pair::from(-d) / length);
+    // A quotient that may underflow is in doubt.
+    let errors = normal.map(|x| if x.hi == 0.0 { 0.0 } else { ERROR * x.hi.abs() + LEAST_PAIR });
     let [low, high] = format.ends(normal.map(|x| x.hi), normal.map(|x| x.lo), errors);
     // A zero has no sign.
     let [point, normal] = [line.center, low.into()].map(|vector| vector + DVec3::ZERO);

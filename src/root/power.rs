@@ -1,9 +1,12 @@
-//! o·o - r², the power of a line's origin, where nearly all of it cancels: in pairs, in three floats, and as closely as floats
-//! go.
+//! o·o - r², the power of a line's origin, where nearly all of it cancels: in halves of 26 bits, in pairs, in three floats, and as
+//! closely as floats go.
 //!
-//! In plain `f64` it is part of a [`chord`](super::chord), in halves of 26 bits it is in [`halves`](super::halves), and exact
-//! integers of it are in `narrow` and `surds`.
+//! In plain `f64` it is part of a [`chord`](super::chord), and exact integers of it are in `narrow` and `surds`.
 
+use glam::DVec3;
+
+use super::line::Line;
+use crate::arithmetic::half::{Half, Halves, splitter};
 use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
     Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum,
@@ -11,6 +14,27 @@ use crate::arithmetic::pair::{
 
 #[cfg(test)]
 mod tests;
+
+/// From the ray's origin to the center in halves: `o` is that rounded, and what was rounded goes into the low part.
+#[inline(always)]
+pub(super) fn to_center(line: Line, o: DVec3, splitter: f64) -> Halves {
+    let Halves { high, low } = Halves::new(o, splitter);
+    let rounded = DVec3::from(line.o().map(|o| o.lo));
+    Halves { high, low: low + rounded }
+}
+
+/// o·o - r² in halves, off by at most 2⁻⁷⁶ m besides the rounding of the result, with `o` rounded and m as `larger`.
+///
+/// The sum of high parts is exact. What is rounded are o.low, 2⁻⁸⁰ of |o|, and the products and sums with low parts, of at most
+/// 2⁻²⁵ m each.
+#[inline(always)]
+pub(super) fn power_in_halves(line: Line, o: DVec3, larger: f64) -> f64 {
+    let splitter = splitter(larger);
+    let Halves { high, low } = to_center(line, o, splitter);
+    let radius = Half::new(line.radius, splitter);
+    let leading = high.dot(high) - radius.high * radius.high;
+    leading + (low.dot(o + high) - radius.low * (line.radius + radius.high))
+}
 
 /// Of the power in pairs, in m.
 ///
@@ -46,29 +70,33 @@ pub(super) fn accurate_power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) 
     if power.hi.abs() > CLOSE * larger {
         return (power, POWER_ERROR * larger);
     }
-    let terms = Terms::new(exact_o, radius);
-    let (power, ..) = terms.sum();
+    let (power, rest) = Terms::new(exact_o, radius).sum();
     if power.hi.abs() > CLOSER * larger {
         return (power, CLOSE_ERROR * larger + 2.0 * V * power.hi.abs());
     }
-    closest_power(exact_o, radius)
+    (power, closest_error(exact_o, radius, power, rest))
 }
 
 /// The same, with an error of what there is of a rest: for where the power is likely to be 0, or next to it.
-///
-/// It is 0 for sure only where every term is exact: where o is a number in each coordinate, and no square underflows.
-#[cold]
-#[inline(never)]
+#[inline(always)]
 pub(super) fn closest_power(exact_o: Triple<Pair>, radius: f64) -> (Pair, f64) {
+    let (power, rest) = Terms::new(exact_o, radius).sum();
+    (power, closest_error(exact_o, radius, power, rest))
+}
+
+/// The error by what there is of a rest, the sum of whose magnitudes is given.
+///
+/// The power is 0 for sure only where every term is exact: where o is a number in each coordinate, and no square underflows.
+#[inline(always)]
+fn closest_error(exact_o: Triple<Pair>, radius: f64, power: Pair, rest: f64) -> f64 {
     /// Of the rest's terms. The first of the low sums' errors passes most additions: 8 of the others, that of the smaller terms,
     /// and that to the low part of the whole, 10 in all. The magnitudes are rounded as often, which is of the second order.
     const REST_ERROR: f64 = 16.0 * U;
-    let (power, rest) = Terms::new(exact_o, radius).sum();
     let Triple { x, y, z } = exact_o.map(|o| o.lo == 0.0 && is_whole(o.hi));
     let is_zero = power.hi == 0.0 && rest == 0.0 && is_whole(radius) && x && y && z;
     // The least is for what may underflow.
     let error = REST_ERROR * rest + 2.0 * V * power.hi.abs() + f64::MIN_POSITIVE;
-    (power, if is_zero { 0.0 } else { error })
+    if is_zero { 0.0 } else { error }
 }
 
 /// The terms of o·o - r².

@@ -7,16 +7,6 @@ use crate::{Hit, Ray, Sphere, Vector};
 
 /// A vector type whose precision has a way to carry a derivation through to the contract.
 pub trait Precision: Sized {
-    /// An ulp of 1.
-    const UNIT_ULP: f64;
-    /// The smallest number above 0.
-    const LEAST_POSITIVE: f64;
-
-    /// The float after one that is positive and finite.
-    fn next_above(t: Self::Scalar) -> Self::Scalar
-    where
-        Self: Vector;
-
     /// Where the ray meets the sphere first with `t` in `range`.
     fn intersect<D: Derivation>(
         sphere: &Sphere<Self>,

@@ -22,6 +22,7 @@ use super::answer::{Answer, Crossings, Found, Question, Side, Verdict};
 use super::format::Format;
 use super::line::Line;
 use super::points;
+use super::unit::Unit;
 use crate::arithmetic::comparison::is_zero;
 use crate::arithmetic::integer::{Integer, PLACES, Shifted};
 use crate::arithmetic::pair::U;
@@ -193,52 +194,9 @@ struct InSurds<'m> {
     scratch: Scratch<'m>,
 }
 
-/// The unit of integers, 2^`exponent`, and how many binary places the largest of them has.
-#[derive(Clone, Copy)]
-pub(super) struct Unit {
-    pub(super) exponent: i32,
-    pub(super) places: u32,
-}
-
-impl Unit {
-    /// The largest power of two that all coordinates are multiples of, any if these are zeros; `None` where one is not finite.
-    #[inline(never)]
-    pub(super) fn common(vectors: &[DVec3]) -> Option<Self> {
-        /// The exponent of the last place of the largest number.
-        const LARGEST: i32 = 971;
-        let (mut unit, mut top) = (LARGEST, LARGEST);
-        let mut is_first = true;
-        for vector in vectors {
-            for coordinate in vector.to_array() {
-                let (integer, exponent) = integer_and_exponent(coordinate);
-                if exponent > LARGEST {
-                    return None;
-                }
-                if integer != 0 {
-                    #[expect(clippy::cast_possible_wrap, reason = "at most 64")]
-                    let [zeros, bits] =
-                        [integer.trailing_zeros(), u64::BITS - integer.leading_zeros()]
-                            .map(|places| places as i32);
-                    unit = unit.min(exponent + zeros);
-                    top = if is_first { exponent + bits } else { top.max(exponent + bits) };
-                    is_first = false;
-                }
-            }
-        }
-        Some(Self { exponent: unit, places: (top - unit).max(0).unsigned_abs() })
-    }
-
-    /// Those of the lengths and of the direction of a line.
-    pub(super) fn of_line(line: &Line) -> Option<[Self; 2]> {
-        let Line { origin, direction, center, radius } = *line;
-        let lengths = Self::common(&[origin, center, DVec3::splat(radius)])?;
-        Some([lengths, Self::common(&[direction])?])
-    }
-}
-
 /// Computes a, h and the discriminant of a line in these units of lengths and of directions, with memory for o, d and the power.
 #[inline(never)]
-pub(super) fn compute_chord(
+pub(crate) fn compute_chord(
     line: &Line,
     [length, direction]: [Unit; 2],
     [a, h, discriminant]: [&mut Integer; 3],

@@ -1,13 +1,38 @@
+use core::ops::Range;
+
 use glam::{DVec3, Vec3};
 
-use super::answer::Side;
-use super::format::PointTolerance;
+use super::answer::{Found, Side};
 use super::*;
 use crate::arithmetic::pair::U;
 use crate::arithmetic::scaling::scale;
 use crate::testing::support::oracle::BITS;
 use crate::testing::{Dyadic, ExactChord, Float, Lie, Random, Root, part_of_bound, setting, total};
 use crate::{Hittable, Ray, Sphere};
+
+/// How far off a point may be besides the rounding of its coordinates: by the smaller of two lengths.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PointTolerance {
+    /// A part of the distance travelled, t times the direction's length.
+    pub(super) of_distance: f64,
+    /// A part of the radius.
+    pub(super) of_radius: f64,
+}
+
+impl Format {
+    /// What the first steps keep to.
+    pub(super) const fn point_tolerance(self) -> PointTolerance {
+        match self {
+            // 2^-30 and 2^-24.
+            Self::F32 => PointTolerance {
+                of_distance: f32::EPSILON as f64 / 128.0,
+                of_radius: f32::EPSILON as f64 / 2.0,
+            },
+            // 2^-60 and 2^-53.
+            Self::F64 => PointTolerance { of_distance: U / 128.0, of_radius: U },
+        }
+    }
+}
 
 /// The line and the sphere of the coordinates of center, origin and direction, and the radius.
 pub(super) fn line(numbers: [f64; 10]) -> Line {
@@ -20,10 +45,74 @@ pub(super) fn line(numbers: [f64; 10]) -> Line {
     }
 }
 
+/// What the moved origin says, and what integers say.
+pub(super) fn careful_steps(
+    line: &Line,
+    format: Format,
+    question: &Question,
+) -> [Verdict<Answer>; 2] {
+    let Some(scaled) = Scaled::new(line) else { return [Verdict::Doubt, Verdict::Doubt] };
+    [
+        moved_origin::chord(&scaled.line, format)
+            .and_then(|chord| question.ask(&mut scaled.unscaled(chord))),
+        integers::chord(&scaled.line, format)
+            .and_then(|chord| question.ask(&mut scaled.unscaled(chord))),
+    ]
+}
+
 /// Its coordinates rounded to `f32`.
 #[expect(clippy::cast_possible_truncation, reason = "rounding is what this does")]
 pub(super) fn single(numbers: [f64; 10]) -> [f64; 10] {
     numbers.map(|number| (number as f32).into())
+}
+
+fn numbers_of(Line { origin, direction, center, radius }: &Line) -> [f64; 10] {
+    let [[cx, cy, cz], [px, py, pz], [dx, dy, dz]] =
+        [center, origin, direction].map(DVec3::to_array);
+    [cx, cy, cz, px, py, pz, dx, dy, dz, *radius]
+}
+
+/// Lines of every kind: integers, floats of a few exponents, of many, and exact tangents.
+pub(super) fn lines_of_every_kind(random: &mut Random) -> [f64; 10] {
+    let mut numbers = match random.below(8) {
+        0 => [0.0; 10].map(|_: f64| f64::from(random.integer(-20..=20))),
+        1 => {
+            let lie = Lie { power: 2_f64.powi(-random.integer(1..=50)), discriminant: 0.25 };
+            single(setting(random, lie))
+        }
+        2 => {
+            let lie = Lie { power: 2_f64.powi(-random.integer(1..=50)), discriminant: 0.25 };
+            setting(random, lie)
+        }
+        3 => [0.0; 10].map(|_: f64| random.float(-300..=300)),
+        // All of 53 bits at both ends of 61 places.
+        4 => [0.0; 10].map(|_: f64| random.float(-8..=0)),
+        // Half the chord is 4 where the line is 3 off a center of radius 5, or 0: roots of a few bits, and of 54.
+        5 | 6 => {
+            let size = f64::from(random.integer(1..=1000));
+            let aside = [3.0, 5.0][random.below(2)] * size;
+            let shift = 2_f64.powi(random.integer(0..=49));
+            [shift, aside, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 5.0 * size]
+        }
+        _ => {
+            // A tangent with the direction (3, 4, 0) and the normal (-4, 3, 0).
+            let long = f64::from(random.integer(1..=1000));
+            let radius = f64::from(random.integer(1..=1000));
+            let along = f64::from(random.integer(-1000..=1000));
+            let center = [3.0 * along - 4.0 * radius, 4.0 * along + 3.0 * radius];
+            [center[0], center[1], 7.0, 0.0, 0.0, 7.0, 3.0 * long, 4.0 * long, 0.0, 5.0 * radius]
+        }
+    };
+    numbers[9] = numbers[9].abs();
+    if numbers[6..9].iter().all(|d| *d == 0.0) {
+        numbers[7] = 1.0;
+    }
+    // In any units, brought near 1.
+    let (lengths, directions) = (random.integer(-300..=300), random.integer(-300..=300));
+    for (index, number) in numbers.iter_mut().enumerate() {
+        *number = scale(*number, if (6..9).contains(&index) { directions } else { lengths });
+    }
+    Scaled::new(&line(numbers)).map_or(numbers, |scaled| numbers_of(&scaled.line))
 }
 
 /// The exact length of a vector, to 80 bits.

@@ -3,8 +3,8 @@
 use core::ops::Range;
 
 use super::queue::Queue;
+use crate::order::{compare_crossings, next_above};
 use crate::root::Side;
-use crate::root::order::{compare_crossings, next_above};
 use crate::{Hit, Hittable, Ray, Sphere, Vector};
 
 /// For how many crossings there is room without allocating.

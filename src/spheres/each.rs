@@ -11,7 +11,7 @@ use super::packet::bounds::{Meet, Met};
 use super::packet::{Around, Mask, Packet, Question, RAYS};
 use super::scan::Bits;
 use super::{SphereBvh, Spheres};
-use crate::root::order::{is_nearer, next_above};
+use crate::order::{is_nearer, next_above};
 use crate::{Hit, Hittable, Ray, Sphere, Vector};
 
 /// What is found for each ray: which sphere, and where.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::arithmetic::pair::{QUOTIENT_ERROR, ROOT_ERROR, SUM_ERROR};
+use crate::arithmetic::pair::QUOTIENT_ERROR;
 use crate::testing::{Dyadic, Float, Random, exactly, part_of_bound};
 
 fn number(wide: ScaledPair) -> Dyadic {
@@ -20,7 +20,7 @@ fn integers_keep_106_bits() {
         let exact = Dyadic::new(bits, unit.into());
         let wide = ScaledPair::from_integer(bits, unit);
         assert_eq!(wide.is_zero(), bits == 0);
-        assert!(!wide.is_negative());
+        assert!(wide.value.hi >= 0.0);
         if bits == 0 {
             continue;
         }
@@ -42,7 +42,7 @@ fn random_wide(random: &mut Random) -> ScaledPair {
     let integer = i128::from_ne_bytes((bits >> random.below(128)).to_ne_bytes());
     let integer = if random.below(2) == 0 { integer } else { -integer };
     let wide = ScaledPair::from_signed(integer, random.integer(-4000..=4000));
-    assert_eq!((wide.is_negative(), wide.is_zero()), (integer < 0, integer == 0));
+    assert_eq!((wide.value.hi < 0.0, wide.is_zero()), (integer < 0, integer == 0));
     wide
 }
 
@@ -64,18 +64,13 @@ fn wide_numbers_keep_the_bounds_of_pairs() {
         let (x, y) = (number(a), number(b));
         assert_eq!(number(-a), -&x);
 
-        let size = &x.clone().abs() + &y.clone().abs();
         let part = |computed, exact: &Dyadic, error, size: &Dyadic| {
             part_of_bound(&number(computed), exact, &(&Dyadic::exactly(error) * size))
         };
-        assert!(part(a + b, &(&x + &y), SUM_ERROR, &size) <= 1.0, "{a:?} + {b:?}");
         let quotient = x.divided_by(&y, 240);
         let size = quotient.clone().abs();
         assert!(part(a / b, &quotient, QUOTIENT_ERROR, &size) <= 1.0, "{a:?} / {b:?}");
-        let a = if a.is_negative() { -a } else { a };
-        let root = number(a).square_root(240);
-        assert!(part(a.sqrt(), &root, ROOT_ERROR, &root) <= 1.0, "square root of {a:?}");
-
+        let a = if a.value.hi < 0.0 { -a } else { a };
         let middle = a.scaled(-a.exponent());
         assert!((1.0..=2.0).contains(&middle.hi), "{a:?}");
         assert_eq!(exactly(middle), number(a).scaled((-a.exponent()).into()));
@@ -86,10 +81,7 @@ fn wide_numbers_keep_the_bounds_of_pairs() {
 fn wide_zero_is_zero() {
     let one = ScaledPair::from_integer(1, 0);
     let zero = ScaledPair::from_signed(0, 7);
-    assert!(zero.is_zero() && !zero.is_negative() && zero.sqrt().is_zero() && (-zero).is_zero());
-    assert!((zero / one).is_zero() && (one + -one).is_zero());
-    assert_eq!(number(one + zero), Dyadic::new(1, 0));
-    assert_eq!(number(zero + one), Dyadic::new(1, 0));
+    assert!(zero.is_zero() && (-zero).is_zero() && (zero / one).is_zero());
     assert_eq!(zero.to_f64(), 0.0);
 }
 

@@ -1,6 +1,9 @@
 use super::*;
+use crate::algebraic::Quadratic;
 use crate::geometric::ClosestApproach;
-use crate::root::single::tests::{Effort, careful_effort};
+use crate::root::again::tests::{Effort, careful_effort};
+use crate::root::answer::Side;
+use crate::root::line::is_safe;
 use crate::root::tests::{assert_exact, line};
 use crate::testing::{ExactChord, Float, Lie, Random, setting};
 
@@ -21,7 +24,7 @@ pub(in crate::root) fn effort(sphere: &Sphere<DVec3>, ray: &Ray<DVec3>) -> Effor
             Nearest::Doubt => {}
         }
     }
-    if from_the_surface(setting.line, &range).is_some() {
+    if from_the_surface(setting.line, Format::F64, &range).is_some() {
         return Effort::Again;
     }
     careful_effort(&setting.line, Format::F64, range)
@@ -90,7 +93,7 @@ fn answers_are_the_exact_ones_rounded() {
                 nearest_again(&line(numbers), range.clone()).map(|found| found.t),
             ];
             assert_eq!(found, [expected; 3], "{range:?} {numbers:?}");
-            if let Some(found) = from_the_surface(line(numbers), &range) {
+            if let Some(found) = from_the_surface(line(numbers), Format::F64, &range) {
                 assert_eq!(found.map(|found| found.t), expected, "{range:?} {numbers:?}");
                 close += 1;
             }

@@ -6,6 +6,7 @@ use crate::root::chord::Derivation;
 use crate::root::format::Format;
 use crate::root::power::accurate_power;
 use crate::root::tests::{assert_exact, line};
+use crate::testing::families::{FAMILIES, Rng};
 use crate::testing::{
     Dyadic, ExactChord, Float, Lie, Random, exactly, part_of_bound, search_settings, setting,
 };
@@ -101,11 +102,35 @@ fn hits_are_rounded_correctly_or_not_certain() {
         // Of the two roots, that on the side of the origin.
         let side = if exact.h.is_negative() { Side::Far } else { Side::Near };
         let t = f64::nearest(&expected);
-        match hit(line, line.o(), side, root, t) {
+        match hit(line, Format::F64, line.o(), side, root, t) {
             Some(found) => assert_exact(Format::F64, numbers, side, &found),
             None => doubts += 1,
         }
         certain += 1;
     }
     assert!(certain > 2000 && doubts < certain / 10, "{doubts} doubts of {certain}");
+}
+
+#[test]
+fn hits_from_exactly_on_the_surface_are_rounded_correctly() {
+    let family = FAMILIES.iter().find(|family| family.name == "on the surface, exactly");
+    let family = family.expect("there is one");
+    let mut rng = Rng::new(3);
+    let (mut hits, mut misses, count) = (0, 0, 2000);
+    for _ in 0..count {
+        let (ray, sphere) = (family.f32)(&mut rng);
+        let line = Line::new(&sphere, &ray);
+        match from_the_surface(line, Format::F32, &(0.0..f64::INFINITY)) {
+            Some(Some(found)) => {
+                let [c, p, d] = [line.center, line.origin, line.direction].map(|v| v.to_array());
+                let numbers = [&c[..], &p, &d, &[line.radius]].concat();
+                let numbers = numbers.try_into().expect("ten numbers");
+                assert_exact(Format::F32, numbers, Side::Far, &found);
+                hits += 1;
+            }
+            Some(None) => misses += 1,
+            None => {}
+        }
+    }
+    assert!(hits > count * 2 / 5 && misses > count * 2 / 5, "{hits} hits, {misses} misses");
 }

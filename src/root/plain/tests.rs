@@ -6,7 +6,7 @@ use crate::arithmetic::number::Triple;
 use crate::geometric::ClosestApproach;
 use crate::root::chord::Derivation;
 use crate::root::tests::line;
-use crate::root::{halves, single};
+use crate::root::{halves, plain_single};
 use crate::testing::{Dyadic, ExactChord, Float, Lie, Random, part_of_bound, search, setting};
 
 /// A ray, a sphere and how the plain arithmetic sees them.
@@ -113,7 +113,7 @@ fn search_chords<D: Derivation>(
 }
 
 /// The two parts `clear` that there are, and the largest allowed.
-const CLEARS: [f64; 3] = [single::CLEAR, halves::CLEAR, 1.0 / 256.0];
+const CLEARS: [f64; 3] = [plain_single::CLEAR, halves::CLEAR, 1.0 / 256.0];
 
 /// From where the bounds of relative errors are largest: as little clear of doubt as may be.
 fn almost_in_doubt(clear: f64) -> [Lie; 4] {
@@ -178,7 +178,7 @@ fn both_roots_keep_their_bound() {
 
 #[test]
 fn roots_by_a_finer_power_keep_their_bound() {
-    let clear = single::CLEAR;
+    let clear = plain_single::CLEAR;
     let lies = [
         // As small as the power may be, and a good deal smaller.
         Lie { power: 1.1 * FINE_POWER, discriminant: 0.51 * clear },
@@ -198,7 +198,7 @@ fn a_finer_power_is_asked_only_close_to_the_surface() {
     let asked = |lie: Lie| {
         let mut asked = 0;
         let case = Case::new::<Quadratic>(setting(&mut Random::new(1), lie));
-        let _ = nearest_ahead(&case.chord, case.radius_squared, single::CLEAR, || {
+        let _ = nearest_ahead(&case.chord, case.radius_squared, plain_single::CLEAR, || {
             asked += 1;
             None
         });
@@ -265,7 +265,7 @@ fn a_wrong_sign_of_the_closest_approach_does_no_harm() {
     };
     let part = |numbers| {
         let case = Case::new::<Quadratic>(numbers);
-        let _ = case.nearest(single::CLEAR, None);
+        let _ = case.nearest(plain_single::CLEAR, None);
         let Chord { a, h, distance_squared, .. } = case.chord;
         (!case.exact.h.is_negative()).then_some(-h / (H_ERROR * (a * distance_squared).sqrt()))
     };
@@ -290,7 +290,7 @@ fn what_is_certain_is_right() {
         for case in [Case::new::<Quadratic>(numbers), Case::new::<ClosestApproach>(numbers)] {
             assert!(case.nearest(clear, None).unwrap_or(0.0) <= 1.0, "{numbers:?}");
             // What asks for such a power has that `clear`.
-            let by_a_fine_power = case.nearest_by_a_fine_power(single::CLEAR);
+            let by_a_fine_power = case.nearest_by_a_fine_power(plain_single::CLEAR);
             assert!(by_a_fine_power.unwrap_or(0.0) <= 1.0, "{numbers:?}");
             assert!(case.both(clear).unwrap_or(0.0) <= 1.0, "{numbers:?}");
         }
@@ -301,8 +301,8 @@ fn what_is_certain_is_right() {
 fn odd_arguments_are_no_hits() {
     let case = |o: DVec3, d: DVec3, radius_squared: f64| {
         let chord = Quadratic::chord(Triple::from(o), Triple::from(d), radius_squared);
-        let nearest = nearest_ahead(&chord, radius_squared, single::CLEAR, || Some(f64::NAN));
-        let both = both(&chord, radius_squared, single::CLEAR, || None);
+        let nearest = nearest_ahead(&chord, radius_squared, plain_single::CLEAR, || Some(f64::NAN));
+        let both = both(&chord, radius_squared, plain_single::CLEAR, || None);
         // A root that is not finite is none.
         let (is_hit, is_doubt) = match nearest {
             Nearest::Root { t, .. } => (t.is_finite(), !t.is_finite()),
@@ -356,7 +356,7 @@ fn units_of_length_and_of_the_direction_change_nothing() {
         }
         let [here, there] = [numbers, scaled].map(Case::new::<Quadratic>);
         let ask = |case: &Case, power: f64| {
-            nearest_ahead(&case.chord, case.radius_squared, single::CLEAR, || Some(power))
+            nearest_ahead(&case.chord, case.radius_squared, plain_single::CLEAR, || Some(power))
         };
         let power = here.worst_fine_power(1);
         let in_units = |t: f64| t * 2_f64.powi(lengths - directions);
@@ -367,8 +367,8 @@ fn units_of_length_and_of_the_direction_change_nothing() {
         };
         assert!(same, "2^{lengths} 2^{directions} {numbers:?}");
         let same = match (
-            both(&here.chord, here.radius_squared, single::CLEAR, || None),
-            both(&there.chord, there.radius_squared, single::CLEAR, || None),
+            both(&here.chord, here.radius_squared, plain_single::CLEAR, || None),
+            both(&there.chord, there.radius_squared, plain_single::CLEAR, || None),
         ) {
             (Both::Miss, Both::Miss) | (Both::Doubt, Both::Doubt) => true,
             (Both::Roots { t, .. }, Both::Roots { t: found, .. }) => t.map(in_units) == found,
@@ -386,9 +386,9 @@ fn clear_cases_are_not_in_doubt() {
             let numbers = setting(&mut random, Lie { power, discriminant });
             for case in [Case::new::<Quadratic>(numbers), Case::new::<ClosestApproach>(numbers)] {
                 let Case { chord, radius_squared, .. } = case;
-                let nearest = nearest_ahead(&chord, radius_squared, single::CLEAR, || None);
+                let nearest = nearest_ahead(&chord, radius_squared, plain_single::CLEAR, || None);
                 assert!(matches!(nearest, Nearest::Miss), "{numbers:?}");
-                let both = both(&chord, radius_squared, single::CLEAR, || None);
+                let both = both(&chord, radius_squared, plain_single::CLEAR, || None);
                 assert!(matches!(both, Both::Miss), "{numbers:?}");
             }
         }

@@ -1,6 +1,5 @@
 use super::*;
-use crate::root::tests::{assert_exact, exact_root, exact_surd, line};
-use crate::root::{integers, moved_origin};
+use crate::root::tests::{assert_exact, careful_steps, exact_root, exact_surd, line};
 use crate::testing::{Dyadic, ExactChord, Random};
 
 use crate::testing::families::{FAMILIES, Rng};
@@ -56,10 +55,6 @@ fn check(line: &Line, format: Format) -> bool {
     for (index, side) in SIDES.into_iter().enumerate() {
         let t = roots[index];
         assert_eq!(t, exact_root(format, numbers, side), "{format:?} {side:?} {line:?}");
-        let only = ask(line, format, &Question::Root(side)).and_then(Answer::roots);
-        let mut expected = [0.0; 2];
-        expected[index] = t;
-        assert_eq!(only, Some(expected), "{format:?} {side:?} {line:?}");
         if t > 0.0 && t < f64::INFINITY {
             let only_this = Question::Nearest(t..f64::from_bits(t.to_bits() + 1));
             let found = ask(line, format, &only_this).and_then(Answer::nearest);
@@ -159,15 +154,10 @@ fn memory_that_is_too_small_gives_no_answer() {
 #[test]
 fn every_careful_step_answers_as_this_one() {
     let mut counts = [0; 2];
-    cases(7, 150, |name, line, format| {
-        for question in [ALL, Question::Root(Side::Near), Question::Root(Side::Far), Question::Both]
-        {
+    cases(7, 300, |name, line, format| {
+        for question in [ALL, Question::Both] {
             let expected = bits(ask(line, format, &question));
-            let in_pairs =
-                moved_origin::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
-            let in_integers =
-                integers::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
-            for (count, verdict) in counts.iter_mut().zip([in_pairs, in_integers]) {
+            for (count, verdict) in counts.iter_mut().zip(careful_steps(line, format, &question)) {
                 let found = match verdict {
                     Verdict::Miss => None,
                     Verdict::Hit(answer) => Some(answer),
@@ -319,7 +309,7 @@ fn a_root_below_the_range_of_pairs_is_not_taken_for_exact() {
     ];
     let line = line(numbers);
     assert!(check(&line, Format::F64));
-    let found = integers::chord(&line, Format::F64).and_then(|mut chord| ALL.ask(&mut chord));
+    let [_, found] = careful_steps(&line, Format::F64, &ALL);
     if let Verdict::Hit(found) = found {
         assert_eq!(bits(Some(found)), bits(ask(&line, Format::F64, &ALL)));
     }

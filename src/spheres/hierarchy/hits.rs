@@ -12,7 +12,7 @@ use super::number::number;
 use super::tree::Tree;
 use super::visits::{self, Visit};
 use super::walk::{Enter, Query, allows};
-use crate::root::order::next_above;
+use crate::order::next_above;
 use crate::spheres::crossings::{Crossings, Places};
 use crate::spheres::lanes::Lanes;
 use crate::spheres::queue::Queue;

@@ -15,7 +15,7 @@ use super::split::{DEEPEST, MOST_NESTED};
 use super::tree::Tree;
 use super::visits::{self, Visit};
 use crate::float::sqrt;
-use crate::root::order::{is_nearer, next_above};
+use crate::order::{is_nearer, next_above};
 use crate::spheres::filter::{LARGEST, Segment};
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
 use crate::spheres::local::{local_end, local_start, narrow, to_f32};

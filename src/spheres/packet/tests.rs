@@ -8,7 +8,7 @@ use sobol_burley::sample;
 use super::bounds::{Margins, Meet, Met};
 use super::*;
 use crate::Hittable;
-use crate::root::order::next_above;
+use crate::order::next_above;
 
 /// Takes any rays.
 const ANY: Around =

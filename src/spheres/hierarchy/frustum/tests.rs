@@ -5,7 +5,7 @@ use sobol_burley::sample;
 
 use super::super::boxes::MARGIN;
 use super::*;
-use crate::root::order::next_above;
+use crate::order::next_above;
 use crate::spheres::lanes::Lanes;
 use crate::spheres::local::to_f32;
 use crate::spheres::packet::Around;

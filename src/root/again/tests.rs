@@ -1,11 +1,11 @@
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::*;
 use crate::geometric::ClosestApproach;
-use crate::root::answer::{Question, Verdict};
+use crate::root::double;
 use crate::root::format::Format;
-use crate::root::tests::{assert_exact, line, parts_of_tolerance, single};
-use crate::root::{double, moved_origin};
+use crate::root::precision::Precision;
+use crate::root::tests::{careful_steps, line, parts_of_tolerance, single};
 use crate::testing::{Dyadic, ExactChord, Float, Lie, Random, part_of_bound, search, setting};
 
 use crate::testing::families::{FAMILIES, Rng};
@@ -24,8 +24,8 @@ pub(in crate::root) enum Effort {
 /// Which of the steps that are the same for both precisions decides.
 pub(in crate::root) fn careful_effort(line: &Line, format: Format, range: Range<f64>) -> Effort {
     let question = Question::Nearest(range);
-    let verdict = moved_origin::chord(line, format).and_then(|mut chord| question.ask(&mut chord));
-    if matches!(verdict, Verdict::Doubt) { Effort::Integers } else { Effort::Pairs }
+    let [in_pairs, _] = careful_steps(line, format, &question);
+    if matches!(in_pairs, Verdict::Doubt) { Effort::Integers } else { Effort::Pairs }
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "t is rounded once, here")]
@@ -33,7 +33,7 @@ fn effort(sphere: &Sphere, ray: &Ray) -> Effort {
     let setting = Setting::new(sphere, ray);
     let chord = setting.chord::<Quadratic>();
     let is_certain = |t: f64| t as f32 >= f32::MIN_POSITIVE;
-    match setting.nearest_ahead(&chord, false) {
+    match nearest_ahead(&setting, &chord, false) {
         Nearest::Miss => return Effort::Hot,
         Nearest::Root { t, .. } if rounds_safely::<MARGIN>(t) && is_certain(t) => {
             return Effort::Hot;
@@ -42,7 +42,7 @@ fn effort(sphere: &Sphere, ray: &Ray) -> Effort {
     }
     let is_far = chord.distance_squared > NEAR * setting.radius_squared;
     let nearest =
-        if is_far { from_afar(&setting, &chord) } else { setting.nearest_ahead(&chord, true) };
+        if is_far { from_afar(&setting, &chord) } else { nearest_ahead(&setting, &chord, true) };
     match nearest {
         Nearest::Miss => return Effort::Again,
         Nearest::Root { t, .. } if is_certain(t) => {
@@ -222,30 +222,4 @@ fn roots_and_points_from_afar_keep_their_bounds() {
     println!("from afar: {} of the bound of roots, {} of points", worst[0], worst[1]);
     assert!(worst.iter().all(|part| *part <= 1.0) && worst[1] > 0.03, "{worst:?}");
     assert!(certain > 500, "{certain}");
-}
-
-#[test]
-fn hits_from_exactly_on_the_surface_are_rounded_correctly() {
-    let family = FAMILIES.iter().find(|family| family.name == "on the surface, exactly");
-    let family = family.expect("there is one");
-    let mut rng = Rng::new(3);
-    let (mut hits, mut misses, count) = (0, 0, 2000);
-    for _ in 0..count {
-        let (ray, sphere) = (family.f32)(&mut rng);
-        let setting = Setting::new(&sphere, &ray);
-        let line = Line::new(&sphere, &ray);
-        let chord = setting.chord::<Quadratic>();
-        match from_the_surface(&line, chord, 0.0..f32::INFINITY) {
-            Verdict::Hit(found) => {
-                let [c, p, d] = [line.center, line.origin, line.direction].map(|v| v.to_array());
-                let numbers = [&c[..], &p, &d, &[line.radius]].concat();
-                let numbers = numbers.try_into().expect("ten numbers");
-                assert_exact(Format::F32, numbers, Side::Far, &found);
-                hits += 1;
-            }
-            Verdict::Miss => misses += 1,
-            Verdict::Doubt => {}
-        }
-    }
-    assert!(hits > count * 2 / 5 && misses > count * 2 / 5, "{hits} hits, {misses} misses");
 }

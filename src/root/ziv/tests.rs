@@ -1,6 +1,7 @@
 use std::cell::Cell;
 
 use super::*;
+use crate::root::tests::PointTolerance;
 use crate::testing::{Dyadic, Float, Random, exactly};
 
 /// An `f32` guess for [`nearest`].
