@@ -347,9 +347,9 @@ fn crossing_at<V: Coordinates>(truth: Option<&Truth<V>>, t: V::Scalar) -> Option
     roots.find(|(_, root)| root.nearest::<V::Scalar>().identical(t))
 }
 
-/// Compares hits of two spheres at each of their roots with the exact order: that of t, of equal ones that of the exact roots, and
-/// of equal ones, or where one sphere has no root at all, that of the indices. Returns how many hits at one t are in the order of
-/// their exact roots.
+/// Compares hits of two spheres at each of their roots with the exact order: that of t, of equal ones that of the exact roots,
+/// and of equal ones, or where one sphere has no root at all, that of the indices. Returns how many hits at one t are in the
+/// order of their exact roots.
 #[track_caller]
 fn check_hits<V: Coordinates>(ray: &Ray<V>, spheres: [Sphere<V>; 2]) -> usize {
     let truths = spheres.map(|sphere| Truth::new(ray, &sphere));

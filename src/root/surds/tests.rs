@@ -315,8 +315,8 @@ fn a_root_below_the_range_of_pairs_is_not_taken_for_exact() {
     }
 }
 
-/// Lengths of 922 places and directions of one make the longest integers that the few digits are for, where a digit has 64 places;
-/// and here two factors have a digit more than their product.
+/// Lengths of 922 places and directions of one make the longest integers that the few digits are for, where a digit has 64
+/// places; and here two factors have a digit more than their product.
 #[test]
 fn factors_with_a_digit_more_than_their_product_have_room() {
     let [small, distance, along] = [-1074, -153, -1009].map(|places| scale(1.0, places));

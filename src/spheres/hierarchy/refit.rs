@@ -263,7 +263,8 @@ mod tests {
         }
     }
 
-    /// Boxes that are all as many times as large as before are that on average, and what all have become smaller by does not count.
+    /// Boxes that are all as many times as large as before are that on average, and where all have become smaller, none has
+    /// grown.
     fn keeps_a_tree_that_has_grown_by_little<V: Vector>() {
         let spheres = cloud::<V>(&mut Rng::new(5));
         let tree = Tree::new(&spheres);
