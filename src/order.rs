@@ -102,7 +102,8 @@ impl<'a, V: Vector> Known<'a, V> {
         Self { sphere, nearby: Nearby::new(&Line::new(sphere, ray), t.into()) }
     }
 
-    /// The side of the crossing whose root rounds to `t`, the near one where both do; `None` where neither does.
+    /// The side of the crossing whose root rounds to `t`, the near one where both do. Where neither does, `None`, or the side of one
+    /// that is next to it: all hits have a crossing at their `t`.
     #[inline(always)]
     fn side_at(&self, ray: &Ray<V>, t: V::Scalar) -> Option<Side> {
         if let Some(nearby) = &self.nearby {
