@@ -149,6 +149,97 @@ impl Vectorized for EnterAlone<'_> {
     }
 }
 
+/// The way of a packet through a tree.
+struct Walk<'a, V: Vector> {
+    tree: &'a Tree<V>,
+    lanes: Lanes,
+    packet: &'a mut Packet,
+    slabs: &'a Slabs,
+    frustum: &'a Frustum,
+    entries: Numbers,
+    /// Boxes, each by its node and its lane, and the rays that may enter it. There are fewer boxes than 32 bits can tell apart.
+    waiting: ArrayVec<(Key, Mask), MOST_WAITING>,
+}
+
+impl<V: Vector> Walk<'_, V> {
+    /// The boxes of a node that some ray may enter.
+    #[inline(always)]
+    fn entered_by_any(&mut self, node: &Boxes) -> u32 {
+        let Self { frustum, entries, .. } = self;
+        self.lanes.run(EnterAny { node, frustum, end: self.packet.farthest, entries })
+    }
+
+    /// Which of these rays enter a box; `None` where the packet is given up.
+    #[inline(always)]
+    fn enter(&mut self, boxes: &Boxes, lane: usize, rays: Mask) -> Option<Mask> {
+        let Self { lanes, packet, slabs, .. } = self;
+        let entering = lanes.run(Enter { slabs, packet, boxes, lane, rays });
+        let pays = packet.pays(2 + Packet::tests(rays), 2 * entering.count_ones());
+        pays.then_some(entering)
+    }
+
+    /// Has the boxes of a node wait that some ray may enter, so that the nearest is next. Rays are asked of a box when it is its
+    /// turn: many have no more to ask then.
+    #[inline(always)]
+    fn wait_in_order(&mut self, place: u32, node: &Boxes, rays: Mask) {
+        let first = self.waiting.len();
+        let mut entered = self.entered_by_any(node);
+        while entered != 0 {
+            let lane = entered.trailing_zeros();
+            entered &= entered - 1;
+            let key = key(self.entries.0[lane as usize % LANES], place * 16 + lane);
+            let _ = self.waiting.try_push((key, rays));
+        }
+        let pushed = self.waiting.get_mut(first..).unwrap_or_default();
+        pushed.sort_unstable_by_key(|&(key, _)| Reverse(key));
+    }
+
+    /// Has the boxes of a node wait that rays enter. Returns `false` where the packet is given up.
+    #[inline(always)]
+    fn wait_in_any_order(&mut self, place: u32, node: &Boxes, rays: Mask) -> bool {
+        let count = rays.count_ones();
+        let mut entered = if count <= FEW { ALL } else { self.entered_by_any(node) };
+        if count < RAYS_FOR_A_BOX * (entered.count_ones() * Packet::tests(rays)) {
+            if !self.packet.pays(OF_NODE + count, 2 * count) {
+                return false;
+            }
+            let Self { lanes, packet, slabs, .. } = self;
+            let masks = lanes.run(EnterAlone { node, slabs, packet, rays });
+            for (&rays, lane) in masks.iter().zip(0..).filter(|&(&rays, _)| rays != 0) {
+                let _ = self.waiting.try_push((key(0.0, place * 16 + lane), rays));
+            }
+            return true;
+        }
+        while entered != 0 {
+            let lane = entered.trailing_zeros();
+            entered &= entered - 1;
+            let Some(rays) = self.enter(node, lane as usize, rays) else { return false };
+            let _ = self.waiting.try_push((key(0.0, place * 16 + lane), rays));
+        }
+        true
+    }
+
+    /// The next node or leaf, and the rays that enter it.
+    #[inline(always)]
+    fn next(&mut self, in_any_order: bool) -> Option<(u32, Mask)> {
+        loop {
+            let (key, rays) = self.waiting.pop()?;
+            let mut rays = rays & self.packet.alive;
+            if entry(key) > self.packet.farthest || rays == 0 {
+                continue;
+            }
+            let (node, lane) = (child(key) as usize / LANES, child(key) as usize % LANES);
+            let Some(boxes) = self.tree.nodes.get(node) else { continue };
+            if !in_any_order {
+                rays = self.enter(boxes, lane, rays)?;
+            }
+            if rays != 0 {
+                return Some((boxes.child(child(key) % 16), rays));
+            }
+        }
+    }
+}
+
 impl<V: Vector> Collection<V> for Tree<V> {
     fn around(&self, in_any_order: bool) -> Around {
         let Some(whole) = self.regions.first() else { return self.apart.around(in_any_order) };
@@ -166,79 +257,26 @@ impl<V: Vector> Collection<V> for Tree<V> {
         let Some(whole) = self.regions.first().filter(|_| packet.alive != 0) else { return };
         let mut slabs = Slabs::EMPTY;
         lanes.run(Prepare::new(&mut slabs, packet, whole));
-        let frustum = Frustum::new(packet, whole, MARGIN);
-        let mut entries = Numbers([0.0; LANES]);
-        let enter = |packet: &mut Packet, boxes, lane, rays: Mask| {
-            let entering = lanes.run(Enter { slabs: &slabs, packet, boxes, lane, rays });
-            let pays = packet.pays(2 + Packet::tests(rays), 2 * entering.count_ones());
-            pays.then_some(entering)
-        };
-        // Where the order matters, rays are asked of a box when it is its turn: many have no more to ask then.
-        let mut waiting = ArrayVec::<(Key, Mask), MOST_WAITING>::new();
-        let (mut place, mut rays) = (whole.root, packet.alive);
-        loop {
+        let frustum = &Frustum::new(packet, whole, MARGIN);
+        let mut next = Some((whole.root, packet.alive));
+        let (entries, waiting) = (Numbers([0.0; LANES]), ArrayVec::new());
+        let mut walk = Walk { tree: self, lanes, packet, slabs: &slabs, frustum, entries, waiting };
+        while let Some((place, rays)) = next {
             if place & LEAF != 0 {
-                if !self.ask_leaf(lanes, packet, place & !LEAF, rays, question) {
+                if !self.ask_leaf(lanes, walk.packet, place & !LEAF, rays, question) {
                     return;
                 }
             } else if let Some(node) = self.nodes.get(place as usize) {
-                let (end, count) = (packet.farthest, rays.count_ones());
-                let mut entered = if Q::IN_ANY_ORDER && count <= FEW {
-                    ALL
-                } else {
-                    lanes.run(EnterAny { node, frustum: &frustum, end, entries: &mut entries })
-                };
-                let first = waiting.len();
-                let boxes = entered.count_ones() * Packet::tests(rays);
-                if Q::IN_ANY_ORDER && count < RAYS_FOR_A_BOX * boxes {
-                    if !packet.pays(OF_NODE + count, 2 * count) {
-                        return;
-                    }
-                    let masks = lanes.run(EnterAlone { node, slabs: &slabs, packet, rays });
-                    for (&rays, lane) in masks.iter().zip(0..).filter(|&(&rays, _)| rays != 0) {
-                        let _ = waiting.try_push((key(0.0, place * 16 + lane), rays));
-                    }
-                    entered = 0;
-                }
-                while entered != 0 {
-                    let lane = entered.trailing_zeros();
-                    entered &= entered - 1;
-                    // A box, by its node and its lane: there are fewer than 32 bits can tell apart.
-                    let key = key(entries.0[lane as usize % LANES], place * 16 + lane);
-                    let rays = if Q::IN_ANY_ORDER {
-                        let Some(rays) = enter(packet, node, lane as usize, rays) else { return };
-                        rays
-                    } else {
-                        rays
-                    };
-                    let _ = waiting.try_push((key, rays));
-                }
                 if !Q::IN_ANY_ORDER {
-                    // The nearest is next.
-                    let pushed = waiting.get_mut(first..).unwrap_or_default();
-                    pushed.sort_unstable_by_key(|&(key, _)| Reverse(key));
+                    walk.wait_in_order(place, node, rays);
+                } else if !walk.wait_in_any_order(place, node, rays) {
+                    return;
                 }
                 if node.region().is_some() {
-                    packet.leave_alone(rays);
+                    walk.packet.leave_alone(rays);
                 }
             }
-            loop {
-                let Some((key, waiting_rays)) = waiting.pop() else { return };
-                rays = waiting_rays & packet.alive;
-                if entry(key) > packet.farthest || rays == 0 {
-                    continue;
-                }
-                let (node, lane) = (child(key) as usize / LANES, child(key) as usize % LANES);
-                let Some(boxes) = self.nodes.get(node) else { continue };
-                if !Q::IN_ANY_ORDER {
-                    let Some(entering) = enter(packet, boxes, lane, rays) else { return };
-                    rays = entering;
-                }
-                if rays != 0 {
-                    place = boxes.child(child(key) % 16);
-                    break;
-                }
-            }
+            next = walk.next(Q::IN_ANY_ORDER);
         }
     }
 
