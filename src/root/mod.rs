@@ -6,15 +6,15 @@
 //! o·o - r² where nearly all of it cancels, [`ziv`] rounds to a [`format`](mod@format), [`ties`] compares with the number midway
 //! between two floats, [`points`] finds points and normals, and [`answer`] chooses the root that a ray hits.
 //!
-//! | step | arithmetic | error known by | decides | ns, of a family |
+//! | step | arithmetic | error known by | decides | time, of a family |
 //! |:--|:--|:--|:--|:--|
-//! | [`plain`] | `f64` | one bound for all cases | hit, miss and root in `f32`; hit and miss in `f64` | 7, "inside" in `f32` |
-//! | [`halves`] | `f64`, exact in the leading 26 bits | one bound for all cases | the root in `f64` | 22, "inside" in `f64` |
-//! | [`again`] | `f64` with a finer power, or by the closest approach with a bound of the case ([`bounded_chord`]) | the same | `f32` close to the surface and from afar | 13, "on the surface" in `f32` |
-//! | [`near_surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface, `f32` exactly on it | 54, "on the surface" in `f64` |
-//! | [`moved_origin`] | offsets and powers in pairs of `f64`, the rest in `f64` | a bound of the case | the limb, and from afar in `f64` | 86, "at the limb from afar" in `f64` |
-//! | [`integers`] | integers of 64 bits, products of 256 ([`narrow`]) | exact | tangents | 173 and 171, "exact tangent" |
-//! | [`surds`] | integers of many digits | exact | coordinates that span more places, points next to a midpoint or to zero | 1,452, "tie of a tiny sphere" in `f64` |
+//! | [`plain`] | `f64` | one bound for all cases | hit, miss and root in `f32`; hit and miss in `f64` | 1.9, "inside" in `f32` |
+//! | [`halves`] | `f64`, exact in the leading 26 bits | one bound for all cases | the root in `f64` | 5.7, "inside" in `f64` |
+//! | [`again`] | `f64` with a finer power, or by the closest approach with a bound of the case ([`bounded_chord`]) | the same | `f32` close to the surface and from afar | 4.5, "on the surface" in `f32` |
+//! | [`near_surface`] | `f64` with a power in three floats | the power's | `f64` close to the surface, `f32` exactly on it | 18, "on the surface" in `f64` |
+//! | [`moved_origin`] | offsets and powers in pairs of `f64`, the rest in `f64` | a bound of the case | the limb, and from afar in `f64` | 23, "at the limb from afar" in `f64` |
+//! | [`integers`] | integers of 64 bits, products of 256 ([`narrow`]) | exact | tangents | 55 and 48, "exact tangent" |
+//! | [`surds`] | integers of many digits | exact | coordinates that span more places, points next to a midpoint or to zero | 113, "tie of a tiny sphere" in `f64` |
 //!
 //! How many in a hundred each decides (`cargo test --release --lib how_often -- --nocapture` has every family; "again" counts
 //! [`near_surface`], and a root compared with the midpoint of two floats counts as integers in `f32`):
@@ -23,9 +23,9 @@
 //! |:--|:--|--:|--:|--:|--:|
 //! | unit sphere at 2 to 10 | `f32` | 99.7 | 0 | 0 | 0.3 |
 //! | | `f64` | 99.8 | 0 | 0.2 | 0 |
-//! | distance/radius 1e4 to 1e7 | `f32` | 60.8 | 38.8 | 0.2 | 0.2 |
-//! | | `f64` | 60.9 | 0 | 39.1 | 0 |
-//! | huge spheres | `f32` | 81.4 | 18.2 | 0.1 | 0.3 |
+//! | distance/radius 1e4 to 1e7 | `f32` | 60.5 | 39.1 | 0.2 | 0.2 |
+//! | | `f64` | 60.6 | 0 | 39.4 | 0 |
+//! | huge spheres | `f32` | 81.2 | 18.4 | 0.1 | 0.3 |
 //! | | `f64` | 54.9 | 43.5 | 1.6 | 0 |
 //! | grazing the limb | `f32` | 99.7 | 0 | 0.2 | 0.1 |
 //! | | `f64` | 84.5 | 0 | 15.4 | 0 |
@@ -34,8 +34,8 @@
 //! | exact tangents | `f32` | 18.9 | 0 | 0 | 81.1 |
 //! | | `f64` | 19.3 | 0 | 0 | 80.7 |
 //!
-//! The nanoseconds are those of the nearest root of a family that the step decides, misses and the steps before it included,
-//! beside 2.8 of the textbook's on easy cases (`cargo bench --bench speed_vs_error -- --prices` has every family).
+//! The times are those of the nearest root of a family that the step decides, misses and the steps before it included, in
+//! multiples of the textbook's on easy cases in `f32` (`benches/report/speed_vs_error.md` has every family).
 //!
 //! A step that is not certain hands over to the next, and so does one that is certain of the root but not of the point. No step
 //! assumes what another has found, so each can be tested by itself.
