@@ -28,7 +28,6 @@ use crate::arithmetic::number::Triple;
 use crate::arithmetic::pair::{
     LEAST_PAIR, Pair, U, V, compensated_dot, fast_two_sum, two_difference, two_product, two_sum,
 };
-
 use crate::float::sqrt;
 
 #[cfg(test)]

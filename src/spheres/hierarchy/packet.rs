@@ -16,7 +16,7 @@ use super::frustum::{Enter, Frustum, Prepare, Slabs};
 use super::leaf::{Leaf, NONE};
 use super::region::FAR;
 use super::tree::Tree;
-use super::walk::{Key, MOST_WAITING, child, entry, key};
+use super::walk::{Key, MOST_WAITING, Numbers, child, entry, key};
 use crate::spheres::each::Collection;
 use crate::spheres::lanes::{Instructions, LANES, Lanes, Vectorized};
 use crate::spheres::local::narrow;
@@ -42,10 +42,6 @@ const RAYS_FOR_A_BOX: u32 = 2;
 /// --bench pictures` has them, shuffled.
 const OF_NODE: u32 = 10;
 const OF_LEAF: u32 = 5;
-
-/// Numbers of 16 boxes, where one instruction can write them.
-#[repr(align(64))]
-struct Numbers([f32; LANES]);
 
 /// Asks which boxes of a node any ray may enter.
 struct EnterAny<'a> {
@@ -178,17 +174,20 @@ impl<V: Vector> Walk<'_, V> {
         pays.then_some(entering)
     }
 
+    /// Has a box of a node wait. There is room for all that can wait at once.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "it is below 16")]
+    fn wait(&mut self, entry: f32, place: u32, lane: usize, rays: Mask) {
+        let _ = self.waiting.try_push((key(entry, place * 16 + lane as u32), rays));
+    }
+
     /// Has the boxes of a node wait that some ray may enter, so that the nearest is next. Rays are asked of a box when it is its
     /// turn: many have no more to ask then.
     #[inline(always)]
     fn wait_in_order(&mut self, place: u32, node: &Boxes, rays: Mask) {
         let first = self.waiting.len();
-        let mut entered = self.entered_by_any(node);
-        while entered != 0 {
-            let lane = entered.trailing_zeros();
-            entered &= entered - 1;
-            let key = key(self.entries.0[lane as usize % LANES], place * 16 + lane);
-            let _ = self.waiting.try_push((key, rays));
+        for lane in Bits(self.entered_by_any(node).into()) {
+            self.wait(self.entries.0[lane % LANES], place, lane, rays);
         }
         let pushed = self.waiting.get_mut(first..).unwrap_or_default();
         pushed.sort_unstable_by_key(|&(key, _)| Reverse(key));
@@ -198,7 +197,7 @@ impl<V: Vector> Walk<'_, V> {
     #[inline(always)]
     fn wait_in_any_order(&mut self, place: u32, node: &Boxes, rays: Mask) -> bool {
         let count = rays.count_ones();
-        let mut entered = if count <= FEW { ALL } else { self.entered_by_any(node) };
+        let entered = if count <= FEW { ALL } else { self.entered_by_any(node) };
         if count < RAYS_FOR_A_BOX * (entered.count_ones() * Packet::tests(rays)) {
             if !self.packet.pays(OF_NODE + count, 2 * count) {
                 return false;
@@ -206,15 +205,13 @@ impl<V: Vector> Walk<'_, V> {
             let Self { lanes, packet, slabs, .. } = self;
             let masks = lanes.run(EnterAlone { node, slabs, packet, rays });
             for (&rays, lane) in masks.iter().zip(0..).filter(|&(&rays, _)| rays != 0) {
-                let _ = self.waiting.try_push((key(0.0, place * 16 + lane), rays));
+                self.wait(0.0, place, lane, rays);
             }
             return true;
         }
-        while entered != 0 {
-            let lane = entered.trailing_zeros();
-            entered &= entered - 1;
-            let Some(rays) = self.enter(node, lane as usize, rays) else { return false };
-            let _ = self.waiting.try_push((key(0.0, place * 16 + lane), rays));
+        for lane in Bits(entered.into()) {
+            let Some(rays) = self.enter(node, lane, rays) else { return false };
+            self.wait(0.0, place, lane, rays);
         }
         true
     }
@@ -259,7 +256,7 @@ impl<V: Vector> Collection<V> for Tree<V> {
         lanes.run(Prepare::new(&mut slabs, packet, whole));
         let frustum = &Frustum::new(packet, whole, MARGIN);
         let mut next = Some((whole.root, packet.alive));
-        let (entries, waiting) = (Numbers([0.0; LANES]), ArrayVec::new());
+        let (entries, waiting) = (Numbers::default(), ArrayVec::new());
         let mut walk = Walk { tree: self, lanes, packet, slabs: &slabs, frustum, entries, waiting };
         while let Some((place, rays)) = next {
             if place & LEAF != 0 {

@@ -50,7 +50,7 @@ pub(super) fn child(key: Key) -> u32 {
 /// Numbers of 16 boxes or spheres, where one instruction can write them.
 #[derive(Clone, Default)]
 #[repr(align(64))]
-struct Numbers([f32; LANES]);
+pub(super) struct Numbers(pub(super) [f32; LANES]);
 
 /// A ray on its way.
 #[derive(Clone, Default)]
