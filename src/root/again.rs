@@ -26,8 +26,7 @@ pub(super) mod tests;
 /// The power where the plain one is too small to be certain.
 #[inline(always)]
 fn fine_power(setting: &Setting, chord: &Chord<f64>) -> f64 {
-    let (square, other) = (chord.distance_squared, setting.radius_squared);
-    let larger = if square > other { square } else { other };
+    let larger = setting.larger(chord);
     once_if(Format::F32.has_few_steps(), || power::power_in_halves(setting.line, setting.o, larger))
 }
 

@@ -123,7 +123,7 @@ pub(super) fn from_the_surface(
     let radius_squared = setting.radius_squared;
     let chord = setting.safe_chord::<Quadratic>()?;
     let half_chord = sqrt(chord.discriminant);
-    let larger = chord.distance_squared.max(radius_squared);
+    let larger = setting.larger(&chord);
     if !is_close(&chord, half_chord, larger) {
         return None;
     }
